@@ -1,0 +1,2 @@
+//! The `sommerfeld` command.
+fn main() {}

@@ -1,0 +1,71 @@
+//! The load a machine puts on the journal over one period, and the journal orbit that answers it.
+
+use serde::{Deserialize, Serialize};
+use sommerfeld_film::{FilmSummary, JournalState, Outcome, Reaction};
+
+/// One row of a load table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LoadPoint {
+    /// Crank angle, rad.
+    pub crank_angle: f64,
+    /// Load ON the journal in the shell frame, N.
+    pub load: [f64; 2],
+    /// Moment ON the journal about the mid-plane shell centre, N m.
+    pub moment: [f64; 2],
+    /// Angular speed of the journal in the frame of the loads, rad/s.
+    pub journal_speed: f64,
+    /// Angular speed of the shell in the frame of the loads, rad/s.
+    pub shell_speed: f64,
+}
+
+/// A periodic load table: linear between its rows, which are sorted by crank angle, do not repeat
+/// the first row at the end, and span less than one period.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LoadCycle {
+    /// Rows in ascending crank angle.
+    pub points: Vec<LoadPoint>,
+    /// Period, rad of crank angle.
+    pub period: f64,
+    /// Crank speed, rad/s: sets time.
+    pub engine_speed: f64,
+    /// Mass that moves with the journal, kg; 0 for a massless journal.
+    pub journal_mass: f64,
+}
+
+/// The bearing at one crank angle of the periodic orbit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct CyclePoint {
+    /// Crank angle, rad, from the first row of the load table onwards.
+    pub crank_angle: f64,
+    /// Load on the journal, N.
+    pub load: [f64; 2],
+    /// Moment on the journal, N m.
+    pub moment: [f64; 2],
+    /// Journal state in the shell frame.
+    pub state: JournalState,
+    /// The film's answer.
+    pub reaction: Reaction,
+    /// Extremes, flows, power.
+    pub summary: FilmSummary,
+    /// How the step ended.
+    pub outcome: Outcome,
+}
+
+/// The journal orbit over the last computed cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JournalOrbit {
+    /// One point per output crank step over one period; the last point is one period after the
+    /// first.
+    pub points: Vec<CyclePoint>,
+    /// Cycles computed until the orbit closed.
+    pub cycles: usize,
+    /// Largest distance of the journal centre between the last two cycles at equal crank angle,
+    /// over the radial clearance.
+    pub closure: f64,
+    /// Accepted time steps over all cycles.
+    pub steps: usize,
+    /// Film updates (factorisations) over all cycles.
+    pub film_solves: usize,
+    /// Converged only if every step and the closure did.
+    pub outcome: Outcome,
+}

@@ -1,0 +1,149 @@
+//! What a bearing is: immutable data shared by every film model.
+
+use serde::{Deserialize, Serialize};
+
+/// One slide bearing: bore, clearance, supply and the rules at its boundaries. Immutable in a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Bearing {
+    /// Bore diameter, m.
+    pub diameter: f64,
+    /// Bearing width along the axis, m.
+    pub width: f64,
+    /// Radial clearance, m: half the diametral clearance.
+    pub radial_clearance: f64,
+    /// Grooves and holes that supply oil.
+    pub feeds: Vec<Feed>,
+    /// Gauge pressure at the bearing ends, Pa; not below the cavitation pressure.
+    pub ambient_pressure: f64,
+    /// Gauge pressure of the ruptured film, Pa.
+    pub cavitation_pressure: f64,
+    /// What enters at the ends.
+    pub ends: Ends,
+    /// Where the film starts around the circumference.
+    pub inlet: Inlet,
+    /// Closure for the ruptured film.
+    pub cavitation: Cavitation,
+    /// How the ruptured film shears.
+    pub film_shear: FilmShear,
+}
+
+impl Bearing {
+    /// Bore radius, m.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        0.5 * self.diameter
+    }
+
+    /// Relative clearance psi = C/D = radial clearance over radius.
+    #[must_use]
+    pub fn relative_clearance(&self) -> f64 {
+        self.radial_clearance / self.radius()
+    }
+
+    /// Smallest gap between journal and plain bore for this position and tilt, m (negative where
+    /// they overlap): the journal axis is straight, so it lies at one of the two edges.
+    #[must_use]
+    pub fn minimum_gap(&self, state: &crate::JournalState) -> f64 {
+        [-0.5, 0.5]
+            .map(|side| {
+                let [x, y] = state.centre_at(side * self.width);
+                self.radial_clearance - x.hypot(y)
+            })
+            .into_iter()
+            .fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Closure for the ruptured film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cavitation {
+    /// Solve the full film, then cut pressures below cavitation pressure (half Sommerfeld).
+    Gumbel,
+    /// Complementarity `p >= p_cav` with smooth rupture (Swift-Stieber); creates oil at reformation.
+    Reynolds,
+    /// Jakobsson-Floberg-Olsson: film fraction transported and stored, mass conserved per cell.
+    MassConserving,
+}
+
+/// Where the film starts around the circumference.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Inlet {
+    /// Periodic around the full circumference.
+    Cyclic,
+    /// Additionally `pressure` (gauge, Pa) and a full film on the line of the widest gap, which
+    /// moves with the line of centres.
+    MaxFilmLine {
+        /// Gauge pressure on the line, Pa.
+        pressure: f64,
+    },
+}
+
+/// What enters at the bearing ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ends {
+    /// Air: oil may leave, none enters.
+    Air,
+    /// An oil bath: oil may enter and leave.
+    Flooded,
+}
+
+/// How the ruptured film shears.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmShear {
+    /// Shear stress of a full film everywhere.
+    FullWidth,
+    /// Shear stress weighted by the film fraction.
+    FilmFraction,
+}
+
+/// A groove or hole that holds oil at a given pressure and is always full.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Feed {
+    /// Outline on the developed surface.
+    pub shape: FeedShape,
+    /// Which surface carries it.
+    pub carried_by: Carrier,
+    /// Angle of its centre from +X of its carrier, rad.
+    pub angle: f64,
+    /// Axial position of its centre from the mid-plane, m.
+    pub position: f64,
+    /// Gauge feed pressure, Pa.
+    pub pressure: f64,
+}
+
+/// Outline of a feed on the developed bearing surface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedShape {
+    /// Round hole.
+    Hole {
+        /// Diameter, m.
+        diameter: f64,
+    },
+    /// Rectangle: an axial groove or a pocket.
+    Rectangle {
+        /// Length around the circumference, m.
+        length: f64,
+        /// Width along the axis, m.
+        width: f64,
+    },
+    /// Groove around the whole circumference.
+    Circumferential {
+        /// Width along the axis, m.
+        width: f64,
+    },
+}
+
+/// The surface that carries a feed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Carrier {
+    /// The shell.
+    Shell,
+    /// The journal: the feed turns with it.
+    Journal,
+}

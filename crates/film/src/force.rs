@@ -1,0 +1,317 @@
+//! The waist of the house: journal state in, the film's reaction and its tangents out.
+//!
+//! Equilibrium, orbit, coefficients and engine see a film only through [`FilmForce`]. Its core is
+//! ONE update of the film at the given state, not a full solve: a caller with a Newton iteration of
+//! its own interleaves film and journal updates and pays one factorisation for both. Closed forms
+//! and tables are settled at once.
+
+use crate::JournalState;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// A model of the film of one bearing.
+pub trait FilmForce {
+    /// What this model can do; callers adapt to it instead of matching on names.
+    fn capabilities(&self) -> Capabilities;
+
+    /// Smallest gap at this state, m; negative where the surfaces overlap. Callers keep their steps
+    /// where it stays positive.
+    fn minimum_gap(&self, state: &JournalState) -> f64;
+
+    /// One update of the film at `state`: the reaction for the present cavitated set with its exact
+    /// tangents at that set, then a new set. `settled` tells that the set did not change, so that
+    /// reaction, tangent and fields are those of the state.
+    ///
+    /// # Errors
+    /// [`FilmError`] where the state is not one this film can have (closed gap, tilt for a model
+    /// without tilt).
+    fn linearise(
+        &mut self,
+        state: &JournalState,
+        step: Step,
+        conditions: &Conditions<'_>,
+    ) -> Result<Linearised, FilmError>;
+
+    /// Iterates [`FilmForce::linearise`] at a fixed state until it is settled. The outcome is
+    /// [`Outcome::NotConverged`] if it does not settle within the model's own limit.
+    ///
+    /// # Errors
+    /// As [`FilmForce::linearise`].
+    fn react(
+        &mut self,
+        state: &JournalState,
+        step: Step,
+        conditions: &Conditions<'_>,
+    ) -> Result<Linearised, FilmError> {
+        let limit = self.capabilities().iteration_limit;
+        for _ in 1..limit {
+            let linearised = self.linearise(state, step, conditions)?;
+            if linearised.settled || linearised.outcome != Outcome::Converged {
+                return Ok(linearised);
+            }
+        }
+        let mut last = self.linearise(state, step, conditions)?;
+        if !last.settled && last.outcome == Outcome::Converged {
+            last.outcome = Outcome::NotConverged;
+        }
+        Ok(last)
+    }
+
+    /// Integrals, extremes, flows and power of the film as last linearised.
+    fn summary(&self) -> FilmSummary;
+
+    /// Flow into the film through each feed of the bearing, in the order of [`crate::Bearing::feeds`],
+    /// as last linearised. Empty for models without feeds.
+    fn feed_flows(&self) -> &[FeedFlow] {
+        &[]
+    }
+
+    /// The fields as last linearised; `None` for models without fields.
+    fn field(&self) -> Option<FilmField<'_>> {
+        None
+    }
+
+    /// The last implicit step becomes history: the next one starts from its film content.
+    fn accept_step(&mut self) {}
+
+    /// Forgets the last implicit step: the next one starts again from the accepted history.
+    fn reject_step(&mut self) {}
+
+    /// The film's memory, to resume or to repeat a cycle. Empty for models without history.
+    fn history(&self) -> FilmHistory {
+        FilmHistory::default()
+    }
+
+    /// Puts back a memory taken by [`FilmForce::history`] of the same model.
+    fn restore(&mut self, _history: &FilmHistory) {}
+}
+
+/// What a film model can do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Capabilities {
+    /// It answers to tilt and tilt rates.
+    pub accepts_tilt: bool,
+    /// Its answer depends on the film content of the past: steps must be accepted or rejected.
+    pub has_history: bool,
+    /// It conserves oil, so flows balance.
+    pub conserves_mass: bool,
+    /// More updates than this at one state mean that it does not settle.
+    pub iteration_limit: usize,
+}
+
+/// How time enters an update.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Step {
+    /// Nothing is stored: squeeze from the given velocities, film content constant in time.
+    Steady,
+    /// Implicit (backward Euler) step of the film content from the accepted history. The state's
+    /// position is that at the END of the step and its velocity (position - old position)/duration.
+    Implicit {
+        /// Length of the step, s.
+        duration: f64,
+    },
+}
+
+/// What surrounds the film at this instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Conditions<'a> {
+    /// Temperature of the film, K.
+    pub temperature: f64,
+    /// Gauge pressure of each feed, Pa, where it differs from the bearing's own.
+    pub feed_pressures: Option<&'a [f64]>,
+}
+
+/// How a calculation ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Solved to its tolerance.
+    Converged,
+    /// The iteration stopped at its limit; the number printed is the last iterate.
+    NotConverged,
+    /// No oil can reach the film, so that it carries no load.
+    Starved,
+    /// No film solution exists at this position.
+    NoSolution,
+}
+
+/// Result of one update of the film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Linearised {
+    /// What the film puts on the journal.
+    pub reaction: Reaction,
+    /// Its derivatives for the cavitated set of this update.
+    pub tangent: Tangent,
+    /// The cavitated set did not change in this update.
+    pub settled: bool,
+    /// Anything but [`Outcome::Converged`] ends the caller's iteration.
+    pub outcome: Outcome,
+}
+
+/// What film and contact put on the journal, shell frame, moments about the mid-plane shell centre.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Reaction {
+    /// Force of the film, N.
+    pub film_force: [f64; 2],
+    /// Force of asperity contact, N.
+    pub contact_force: [f64; 2],
+    /// Moment of the film, N m.
+    pub film_moment: [f64; 2],
+    /// Moment of asperity contact, N m.
+    pub contact_moment: [f64; 2],
+    /// Torque that resists the journal's rotation, N m.
+    pub friction_torque_journal: f64,
+    /// Torque that drags the shell along, N m.
+    pub friction_torque_shell: f64,
+}
+
+impl Reaction {
+    /// Film and contact force together, N.
+    #[must_use]
+    pub fn force(&self) -> [f64; 2] {
+        [
+            self.film_force[0] + self.contact_force[0],
+            self.film_force[1] + self.contact_force[1],
+        ]
+    }
+
+    /// Film and contact moment together, N m.
+    #[must_use]
+    pub fn moment(&self) -> [f64; 2] {
+        [
+            self.film_moment[0] + self.contact_moment[0],
+            self.film_moment[1] + self.contact_moment[1],
+        ]
+    }
+}
+
+/// Derivatives of the reaction: rows force x, force y, moment x, moment y (N, N m); columns x, y
+/// (m), tilt x, tilt y (rad), or their rates.
+///
+/// In an implicit step of a film with history the squeeze is in the change of position, so
+/// `by_position` holds it and `by_rate` is zero; the total derivative with respect to the position
+/// at the end of the step is `by_position + by_rate / duration` for every model.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Tangent {
+    /// With respect to position and tilt.
+    pub by_position: [[f64; 4]; 4],
+    /// With respect to velocity and tilt rate.
+    pub by_rate: [[f64; 4]; 4],
+}
+
+/// A value with its place on the bearing surface.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Extreme {
+    /// The value, in the unit of its field.
+    pub value: f64,
+    /// Angle from +X of the shell frame, rad.
+    pub angle: f64,
+    /// Axial position from the mid-plane, m.
+    pub axial: f64,
+}
+
+/// Flow through one feed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct FeedFlow {
+    /// Oil into the film, m3/s; negative where the film pushes oil back.
+    pub flow: f64,
+    /// Gauge pressure in the feed, Pa.
+    pub pressure: f64,
+}
+
+/// What a designer asks of one film.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct FilmSummary {
+    /// Smallest film thickness, m, and where.
+    pub minimum_film_thickness: Extreme,
+    /// Largest film pressure (gauge), Pa, and where.
+    pub peak_film_pressure: Extreme,
+    /// Oil that leaves at the ends z = -B/2 and z = +B/2, m3/s.
+    pub side_flow: [f64; 2],
+    /// Oil that enters through all feeds and the inlet line, m3/s.
+    pub feed_flow: f64,
+    /// Rate at which the film content grows, m3/s.
+    pub storage_rate: f64,
+    /// |feed - side - storage| over the largest of them: 0 for a mass-conserving closure up to
+    /// round-off, and what the others create or lose.
+    pub mass_balance_relative: f64,
+    /// Friction torque of the journal times its speed relative to the shell, W.
+    pub friction_power: f64,
+    /// Power that squeeze motion and tilt rates put into the film, -F v - M tilt_rate, W.
+    pub squeeze_power: f64,
+    /// Share of the land area that carries a full film.
+    pub full_film_share: f64,
+    /// Largest violation of p >= p_cav, theta <= 1 and (p - p_cav)(1 - theta) = 0, relative to the
+    /// peak pressure and 1.
+    pub complementarity_violation: f64,
+    /// Largest cell residual over the largest cell flux.
+    pub cell_residual: f64,
+    /// Updates of the film since the last accepted or rejected step.
+    pub iterations: usize,
+    /// Reynolds number of the film at its mean thickness, rho U h / eta.
+    pub reynolds_number: f64,
+}
+
+impl FilmSummary {
+    /// Power lost in the film, W: friction and squeeze together.
+    #[must_use]
+    pub fn power_loss(&self) -> f64 {
+        self.friction_power + self.squeeze_power
+    }
+}
+
+/// View of the fields of a film on its grid: cell `i` around, `j` along the axis, at
+/// `i * axial.len() + j`.
+#[derive(Debug, Clone, Copy)]
+pub struct FilmField<'a> {
+    /// Cell centres around, rad, shell frame.
+    pub angles: &'a [f64],
+    /// Cell centres along the axis, m.
+    pub axial: &'a [f64],
+    /// Gauge pressure, Pa.
+    pub pressure: &'a [f64],
+    /// Film fraction.
+    pub film_fraction: &'a [f64],
+    /// Film thickness, m.
+    pub film_thickness: &'a [f64],
+}
+
+/// The film content of the past, opaque to callers.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FilmHistory {
+    /// Film fraction times relative gap per cell at the last accepted step.
+    pub content: Vec<f64>,
+}
+
+/// A state or use that a film model refuses.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum FilmError {
+    /// The surfaces touch or overlap.
+    #[error(
+        "the gap closes at angle {angle_deg:.2} deg, axial position {axial_mm:.3} mm \
+         (gap {gap_um:.4} um): reduce eccentricity or tilt"
+    )]
+    Contact {
+        /// Place around, degrees from +X.
+        angle_deg: f64,
+        /// Place along the axis, mm.
+        axial_mm: f64,
+        /// The gap there, um (not positive).
+        gap_um: f64,
+    },
+    /// The model has no tilt.
+    #[error("this film model has no tilt: use model = \"field\"")]
+    NoTilt,
+    /// A value is not a number or infinite.
+    #[error("the journal state holds a value that is not finite: {name}")]
+    NotFinite {
+        /// Which one.
+        name: &'static str,
+    },
+    /// The model cannot be built from this bearing.
+    #[error("{reason}")]
+    Unsupported {
+        /// Why, and what to do.
+        reason: &'static str,
+    },
+}

@@ -1,0 +1,22 @@
+//! The lubricant film of one slide bearing at one instant.
+//!
+//! What it is ([`Bearing`]) and how it moves ([`JournalState`]) go in; the film's answer
+//! ([`Reaction`]) and its exact tangents come out, through one trait: [`FilmForce`].
+//!
+//! # Frames and signs
+//! The shell frame has its origin at the shell centre, Z along the bearing axis, right-handed.
+//! `angle` runs from +X towards +Y, the sense of positive rotation. Loads, eccentricities and both
+//! angular speeds are given in one frame fixed to the shell. LOAD is what the machine puts on the
+//! journal; FORCE is what the film puts on the journal; at rest `load + force = 0`. Moments are
+//! about the mid-plane centre of the shell, on the journal.
+
+pub mod bearing;
+pub mod force;
+pub mod journal_state;
+
+pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+pub use force::{
+    Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
+    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,
+};
+pub use journal_state::JournalState;

@@ -1,0 +1,1 @@
+//! Lubricant laws: numbers in, numbers and derivatives out.
