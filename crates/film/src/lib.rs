@@ -12,7 +12,11 @@
 
 pub mod bearing;
 pub mod force;
+pub mod gap;
+pub mod grid;
 pub mod journal_state;
+pub mod linear;
+pub mod supply;
 
 pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
 pub use force::{
