@@ -20,8 +20,8 @@ pub struct Gap {
     pub around_transport: Vec<f64>,
     /// H^3 that conducts, at the same faces.
     pub around_cubed: Vec<f64>,
-    /// H^3 that conducts, at faces along the axis, `(i, j)` at `i * (n_axial + 1) + j`.
-    pub axial_cubed: Vec<f64>,
+    /// H at faces along the axis, `(i, j)` at `i * (n_axial + 1) + j`.
+    pub axial: Vec<f64>,
     /// Mean H over each cell.
     pub mean: Vec<f64>,
     /// Mean rate dH/dt over each cell, 1/s.
@@ -36,7 +36,7 @@ impl Gap {
         Self {
             around_transport: vec![0.0; (n + 1) * m],
             around_cubed: vec![0.0; (n + 1) * m],
-            axial_cubed: vec![0.0; n * (m + 1)],
+            axial: vec![0.0; n * (m + 1)],
             mean: vec![0.0; n * m],
             rate: vec![0.0; n * m],
         }
@@ -78,7 +78,7 @@ impl Gap {
                 gap.rate[i * m + j] = rate(x);
             }
             for j in 0..=m {
-                gap.axial_cubed[i * (m + 1) + j] = middle.powi(3);
+                gap.axial[i * (m + 1) + j] = middle;
             }
         }
         gap
@@ -105,7 +105,9 @@ impl Waviness {
         }
     }
 
-    fn at(&self, zeta: f64) -> [f64; 2] {
+    /// The amplitudes at `zeta`.
+    #[must_use]
+    pub fn at(&self, zeta: f64) -> [f64; 2] {
         [
             self.centre[0] + self.slope[0] * zeta,
             self.centre[1] + self.slope[1] * zeta,
@@ -162,8 +164,8 @@ impl AngleTables {
                 gap.rate[i * m + j] = -vx * self.means[i][0] - vy * self.means[i][1];
             }
             for j in 0..=m {
-                let h = thickness(position.at(grid.axial_faces[j]), self.centres[i]);
-                gap.axial_cubed[i * (m + 1) + j] = h * h * h;
+                gap.axial[i * (m + 1) + j] =
+                    thickness(position.at(grid.axial_faces[j]), self.centres[i]);
             }
         }
     }
