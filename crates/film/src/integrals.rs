@@ -15,7 +15,7 @@ use crate::force::{Extreme, FilmSummary, Reaction, Tangent};
 use crate::gap::{AngleTables, Gap, Waviness};
 use crate::grid::Grid;
 use crate::journal_state::JournalState;
-use crate::reynolds::{Cell, Operator, Storage};
+use crate::reynolds::{Axial, Cell, Operator, Storage};
 
 /// Units that turn the film's relative quantities into SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -322,8 +322,7 @@ impl SolvedFilm<'_> {
         for i in 0..n {
             for j in 0..=m {
                 let face = i * (m + 1) + j;
-                let flow = self.operator.flow_axial(i, j, self.pressure);
-                let by_height = 3.0 * flow / self.gap.axial[face];
+                let by_height = 3.0 * self.set_flow_axial(i, j) / self.gap.axial[face];
                 let drops = adjoints.each_ref().map(|y| {
                     let before = if j == 0 { 0.0 } else { y[i * m + j - 1] };
                     let behind = if j == m { 0.0 } else { y[i * m + j] };
@@ -332,6 +331,23 @@ impl SolvedFilm<'_> {
                 accumulate(by, drops, by_height, self.angles.centres[i], self.grid.axial_faces[j]);
             }
         }
+    }
+
+    /// Flow along the axis as the equations of the set have it: an end against air is open or
+    /// closed by the set, not by the pressure.
+    fn set_flow_axial(&self, i: usize, j: usize) -> f64 {
+        let m = self.grid.n_axial();
+        if j != 0 && j != m {
+            return self.operator.flow_axial(i, j, self.pressure);
+        }
+        let outside = match self.operator.axial {
+            Axial::Closed => return 0.0,
+            Axial::Air(_) if !self.set.end_open[2 * i + usize::from(j == m)] => return 0.0,
+            Axial::Bath(p) | Axial::Air(p) => p,
+        };
+        let (inside, outward) = if j == 0 { (i * m, -1.0) } else { (i * m + m - 1, 1.0) };
+        let conductance = self.operator.conductance_axial[i * (m + 1) + j];
+        outward * conductance * (self.pressure[inside] - outside)
     }
 
     /// `per_time`: 1 for rates of change, 1/duration for steps.

@@ -285,7 +285,11 @@ impl FilmSolver {
             }
         }
         let storage = film_storage(closure, step, &self.film.old_content);
-        let tangent = self.solved().tangent(&adjoints, storage);
+        let solved = SolvedFilm {
+            pressure: closure.equation_pressure(&self.film.solution, &self.film.pressure),
+            ..self.solved()
+        };
+        let tangent = solved.tangent(&adjoints, storage);
         self.film.adjoints = adjoints;
         tangent
     }

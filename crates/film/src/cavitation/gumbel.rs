@@ -25,6 +25,10 @@ impl CavitationModel for Gumbel {
         }
     }
 
+    fn equation_pressure<'a>(&self, solution: &'a [f64], _pressure: &'a [f64]) -> &'a [f64] {
+        solution
+    }
+
     fn update_set(
         &self,
         operator: &Operator,

@@ -29,6 +29,12 @@ pub trait CavitationModel: Send + Sync {
     /// Splits the solution of the set's equations into pressure (1/s) and film fraction.
     fn fields(&self, set: &FilmSet, solution: &[f64], pressure: &mut [f64], film_fraction: &mut [f64]);
 
+    /// The pressure that solves the set's equations, where that is not the one of
+    /// [`CavitationModel::fields`]: the tangents need it.
+    fn equation_pressure<'a>(&self, _solution: &'a [f64], pressure: &'a [f64]) -> &'a [f64] {
+        pressure
+    }
+
     /// Moves every cell that breaks a condition to its other state; returns how many moved.
     /// `excess` is what enters each cell beyond what leaves it (1/s), `tolerance` the flow (1/s)
     /// below which a violation is round-off.
