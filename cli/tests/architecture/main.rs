@@ -1,6 +1,6 @@
 //! The drawing in ARCHITECTURE.md and the house are one: no arrow points back, between crates or
 //! between the modules of a crate; no room is missing on either side; no file is a warehouse; no
-//! committed file leans on somebody's own machine.
+//! committed file leans on somebody's own machine; no reference lacks its source.
 //!
 //! Code under `#[cfg(test)]` is exempt from the module order and from the count of lines: a test
 //! may look at its module from anywhere.
@@ -178,5 +178,45 @@ fn nothing_committed_leans_on_one_machine() {
         &faults,
         "These places do not exist for a user: use a path inside the repository, or a temporary \
          directory asked from the system.",
+    );
+}
+
+#[test]
+fn every_validation_case_states_source_bar_and_reader() {
+    let mut faults = Vec::new();
+    let committed = files("validation");
+    let mut cases: Vec<&str> = committed
+        .iter()
+        .filter_map(|file| file.split('/').nth(1))
+        .filter(|case| *case != "README.md")
+        .collect();
+    cases.dedup();
+    let contents = read("validation/README.md");
+    for case in cases {
+        let has = |file: &str| committed.contains(&format!("validation/{case}/{file}"));
+        if !has("reference.csv") || !has("README.md") {
+            faults.push(format!(
+                "validation/{case}: needs reference.csv and README.md"
+            ));
+            continue;
+        }
+        let page = read(&format!("validation/{case}/README.md"));
+        for part in ["**Source.**", "**Bar.**", "**Read by**"] {
+            if !page.contains(part) {
+                faults.push(format!("validation/{case}/README.md: no paragraph {part}"));
+            }
+        }
+        if !contents.contains(&format!("({case})")) {
+            faults.push(format!("validation/README.md: does not list {case}"));
+        }
+    }
+    for file in committed.iter().filter(|file| file.ends_with(".csv")) {
+        if !read(file).starts_with("# source:") {
+            faults.push(format!("{file}:1: does not open with `# source:`"));
+        }
+    }
+    complain(
+        &faults,
+        "A reference is worth what its source is worth: see CONTRIBUTING.md, Add a validation case.",
     );
 }
