@@ -20,6 +20,7 @@ pub mod integrals;
 pub mod journal_state;
 pub mod linear;
 pub mod reynolds;
+pub mod scaling;
 pub mod solver;
 pub mod supply;
 
