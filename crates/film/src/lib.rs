@@ -12,6 +12,7 @@
 
 pub mod bearing;
 pub mod cavitation;
+pub mod dimensionless;
 pub mod force;
 pub mod frame;
 pub mod gap;
@@ -20,7 +21,6 @@ pub mod integrals;
 pub mod journal_state;
 pub mod linear;
 pub mod reynolds;
-pub mod scaling;
 pub mod solver;
 pub mod supply;
 

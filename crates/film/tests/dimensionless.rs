@@ -3,9 +3,11 @@
 
 mod common;
 
-use common::{conditions, reference_rows};
-use sommerfeld_film::scaling::{DimensionlessFilm, DimensionlessIntegrals};
-use sommerfeld_film::{Cavitation, FilmForce, FilmSolver, Inlet, Step};
+use common::reference_rows;
+use sommerfeld_film::dimensionless::{
+    DimensionlessFilm, DimensionlessIntegrals, solve_dimensionless,
+};
+use sommerfeld_film::{Cavitation, Inlet, Outcome};
 
 const DEFAULT_GRID: [usize; 2] = [128, 32];
 
@@ -23,12 +25,9 @@ fn film(d_over_b: f64, relative_eccentricity: f64) -> DimensionlessFilm {
 }
 
 fn solve(problem: &DimensionlessFilm) -> DimensionlessIntegrals {
-    let mut solver =
-        FilmSolver::following(&problem.bearing(), &problem.lubricant(), DEFAULT_GRID, problem.grading())
-            .unwrap();
-    let answer = solver.react(&problem.state(), Step::Steady, &conditions()).unwrap();
-    assert!(answer.settled);
-    problem.integrals(&answer.reaction, &solver.summary())
+    let solution = solve_dimensionless(problem, DEFAULT_GRID).unwrap();
+    assert_eq!(solution.outcome, Outcome::Converged);
+    solution.integrals
 }
 
 /// Bar on the default grid: 0.5 % of the force vector and of the moment scale, where the smallest
@@ -67,7 +66,15 @@ fn tilted_table() {
             (got.p_cos - number(9)).hypot(got.p_sin - number(10)) / force,
             (got.p_z_cos - number(11)).hypot(got.p_z_sin - number(12)) / moment,
         ];
-        println!("{} Hmin {} {}: {:.3}% {:.3}% peak {:.3}%", &line[..20], cell[6], cell[7], 100.0*deviations[0], 100.0*deviations[1], 100.0*(got.peak/number(13)-1.0));
+        println!(
+            "{} Hmin {} {}: {:.3}% {:.3}% peak {:.3}%",
+            &line[..20],
+            cell[6],
+            cell[7],
+            100.0 * deviations[0],
+            100.0 * deviations[1],
+            100.0 * (got.peak / number(13) - 1.0)
+        );
         if number(6) > 0.1 {
             rows += 1;
             worst = [worst[0].max(deviations[0]), worst[1].max(deviations[1])];
@@ -76,8 +83,12 @@ fn tilted_table() {
             }
         }
     }
-    println!("{rows} rows, worst force {:.3} %, worst moment {:.3} %", 100.0 * worst[0], 100.0 * worst[1]);
-    assert!(rows > 60 && failures.is_empty(), "{failures:#?}");
+    println!(
+        "{rows} rows, worst force {:.3} %, worst moment {:.3} %",
+        100.0 * worst[0],
+        100.0 * worst[1]
+    );
+    assert!(rows >= 60 && failures.is_empty(), "{failures:#?}");
 }
 
 /// Wedge and squeeze solved together; and the sum of separately cut solutions, the scheme of the
@@ -86,15 +97,25 @@ fn tilted_table() {
 fn combined_wedge_and_squeeze() {
     let mut worst = 0.0_f64;
     for row in reference_rows("combined-wedge-squeeze", "reference.csv") {
-        let [d_over_b, eps, q, f1, f2, f1_sum, f2_sum, ..] = row[..] else { panic!("{row:?}") };
+        let [d_over_b, eps, q, f1, f2, f1_sum, f2_sum, ..] = row[..] else {
+            panic!("{row:?}")
+        };
         let base = film(d_over_b, eps);
-        let both = solve(&DimensionlessFilm { wedge: 1.0, squeeze: q, ..base });
+        let both = solve(&DimensionlessFilm {
+            wedge: 1.0,
+            squeeze: q,
+            ..base
+        });
         let wedge = solve(&DimensionlessFilm { wedge: 1.0, ..base });
         let squeeze = solve(&DimensionlessFilm { squeeze: q, ..base });
         let deviation = (both.p_cos - f1).hypot(both.p_sin - f2) / f1.hypot(f2);
         let sum = [wedge.p_cos + squeeze.p_cos, wedge.p_sin + squeeze.p_sin];
         let deviation_sum = (sum[0] - f1_sum).hypot(sum[1] - f2_sum) / f1_sum.hypot(f2_sum);
-        println!("{d_over_b} {eps} {q}: {:.3}% sum {:.3}%", 100.0*deviation, 100.0*deviation_sum);
+        println!(
+            "{d_over_b} {eps} {q}: {:.3}% sum {:.3}%",
+            100.0 * deviation,
+            100.0 * deviation_sum
+        );
         worst = worst.max(deviation).max(deviation_sum);
     }
     assert!(worst < 0.005, "{worst}");

@@ -49,12 +49,19 @@ pub fn conditions() -> Conditions<'static> {
 /// Rows of `validation/<case>/<file>` as numbers by column; lines that open with `#` and the header
 /// are left out, and words become NaN.
 pub fn reference_rows(case: &str, file: &str) -> Vec<Vec<f64>> {
-    let path = format!("{}/../../validation/{case}/{file}", env!("CARGO_MANIFEST_DIR"));
+    let path = format!(
+        "{}/../../validation/{case}/{file}",
+        env!("CARGO_MANIFEST_DIR")
+    );
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
     text.lines()
         .filter(|line| !line.starts_with('#') && !line.trim().is_empty())
         .skip(1)
-        .map(|line| line.split(',').map(|v| v.trim().parse().unwrap_or(f64::NAN)).collect())
+        .map(|line| {
+            line.split(',')
+                .map(|v| v.trim().parse().unwrap_or(f64::NAN))
+                .collect()
+        })
         .collect()
 }
 
