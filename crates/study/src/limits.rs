@@ -93,7 +93,7 @@ pub enum Verdict {
     Ok,
     /// The result breaks the limit.
     Exceeded,
-    /// The run gave no finite number to judge.
+    /// The run gave no finite number to judge, or did not converge to the one it gave.
     NotEvaluated,
 }
 

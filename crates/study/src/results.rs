@@ -1,6 +1,6 @@
 //! What one run produced: plain owned data, SI, that every output format reads.
 
-use crate::limits::{Limit, LimitCheck, Quantity};
+use crate::limits::{Limit, LimitCheck, Quantity, Verdict};
 use crate::models::Model;
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};
 use sommerfeld_film::{
@@ -177,10 +177,18 @@ pub fn status_name(outcome: Outcome) -> &'static str {
 
 impl Results {
     /// Holds the results against the limits of the study; the checks replace those of the header.
+    /// A limit that seems kept is not called kept if the run did not converge.
     pub fn check_limits(&mut self, limits: &[Limit]) {
         let checks = limits
             .iter()
-            .map(|limit| LimitCheck::new(limit.clone(), self.limited_value(limit.quantity)))
+            .map(|limit| {
+                let found = self.limited_value(limit.quantity);
+                let mut check = LimitCheck::new(limit.clone(), found);
+                if self.header.status != Outcome::Converged && check.verdict == Verdict::Ok {
+                    check.verdict = Verdict::NotEvaluated;
+                }
+                check
+            })
             .collect();
         self.header.limits = checks;
     }
@@ -259,14 +267,15 @@ impl CycleResults {
         self.largest(|point| magnitude(point.load))
     }
 
-    /// The point at which a value is largest; points where it is not finite do not count.
+    /// The point at which a value is largest, the first of equals; points where it is not finite
+    /// do not count.
     pub fn largest(&self, value: impl Fn(&CyclePoint) -> f64) -> Option<&CyclePoint> {
         self.orbit
             .points
             .iter()
             .map(|point| (value(point), point))
             .filter(|(value, _)| value.is_finite())
-            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .reduce(|best, next| if next.0 > best.0 { next } else { best })
             .map(|(_, point)| point)
     }
 

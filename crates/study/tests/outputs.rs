@@ -232,6 +232,7 @@ fn the_report_says_what_did_not_converge() {
     assert!(page.contains("<strong>Not converged</strong>"));
     assert!(page.contains("class=\"badge\">Not converged"));
     assert!(page.contains("Points not converged"));
+    assert!(page.contains("not evaluated") && !page.contains("<b>OK</b>"));
     let good = own_part(&render(&synthetic::load_cycle("cycle")).unwrap());
     assert!(good.contains("<strong>Converged</strong>") && !good.contains("class=\"badge\""));
 }

@@ -1,7 +1,7 @@
 //! The report of a load cycle: key figures, orbit, curves over crank angle, maps, convergence.
 
 use super::figures;
-use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant};
+use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Card, Cell, Figure, Page, Table, badge, checks, error, headline, limit_cells};
 use crate::limits::Quantity;
 use crate::results::{CycleField, CycleResults, Header, degrees, magnitude, place, specific_load};
@@ -132,7 +132,7 @@ fn cards(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<Card> {
     let squeeze = cycle.mean(|p| p.summary.squeeze_power);
     let parts = format!(
         "friction {}, squeeze {}",
-        units.power.number(friction),
+        units.power.show(friction),
         units.power.show(squeeze)
     );
     let side = cycle.mean(side_flow);
@@ -403,7 +403,7 @@ fn extremes(header: &Header, cycle: &CycleResults, units: &Units) -> Table {
             .iter()
             .filter_map(|peak| peak.cells(header))
             .collect(),
-        wide: true,
+        size: "wide",
         ..Table::default()
     }
 }
@@ -464,7 +464,7 @@ fn convergence(cycle: &CycleResults) -> Table {
             .largest(|point| value(&point.summary))
             .map_or("n/a".to_owned(), |point| {
                 let at = angle(degrees(point.crank_angle));
-                format!("{} at {at}", significant(value(&point.summary)))
+                format!("{} at {at}", size(value(&point.summary)))
             })
     };
     let failed = cycle.not_converged().count();
@@ -472,7 +472,7 @@ fn convergence(cycle: &CycleResults) -> Table {
         ("Cycles until the orbit closed", orbit.cycles.to_string()),
         (
             "Closure (distance between last cycles / clearance)",
-            significant(orbit.closure),
+            size(orbit.closure),
         ),
         ("Time steps", orbit.steps.to_string()),
         ("Film solves", orbit.film_solves.to_string()),
@@ -529,7 +529,7 @@ fn not_converged_rows(cycle: &CycleResults) -> Option<Table> {
                     class: "bad",
                 },
                 Cell::number(MICROMETRE.show(point.summary.minimum_film_thickness.value)),
-                Cell::number(significant(point.summary.cell_residual)),
+                Cell::number(size(point.summary.cell_residual)),
             ]
         })
         .collect();
@@ -549,6 +549,6 @@ fn not_converged_rows(cycle: &CycleResults) -> Option<Table> {
             "Cell residual",
         ],
         rows,
-        ..Table::default()
+        size: "wide",
     })
 }

@@ -18,7 +18,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, integrals: &DimensionlessRe
         title: "Integrals of the dimensionless pressure",
         note: "Over φ from 0 to 2π, counted from the widest gap, and Z = 2z/B from −1 to 1.".into(),
         columns: vec!["Key", "Quantity", "Value", "Error"],
-        wide: true,
+        size: "wide",
         ..Table::default()
     };
     for (key, label, value) in rows {

@@ -110,7 +110,7 @@ fn limits(header: &Header, quantity: Quantity, unit: Unit) -> Value {
         .map(|check| {
             json!({
                 "value": short(check.limit.value * unit.factor),
-                "label": format!("limit {}", unit.show(check.limit.value)),
+                "label": format!("limit {}", unit.plain(check.limit.value)),
             })
         })
         .collect()

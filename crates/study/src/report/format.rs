@@ -83,6 +83,33 @@ impl Unit {
         significant(si * self.factor)
     }
 
+    /// A number somebody chose, such as a limit, with the symbol: no zeros to fill four digits.
+    pub fn plain(self, si: f64) -> String {
+        let text = self.number(si);
+        let text = if text.contains('.') && !text.contains('·') {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            &text
+        };
+        format!("{text} {}", self.symbol)
+    }
+
+    /// The size of an error in this unit, without the symbol: two digits say enough.
+    pub fn rough(self, si: f64) -> String {
+        let value = si * self.factor;
+        if !value.is_finite() || value == 0.0 {
+            return significant(value);
+        }
+        let unit = 10f64.powf(value.abs().log10().floor() - 1.0);
+        let rounded = (value / unit).round() * unit;
+        let text = significant(rounded);
+        if text.contains('.') && !text.contains('·') {
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        } else {
+            text
+        }
+    }
+
     /// An SI value in this unit with four significant digits and the symbol.
     pub fn show(self, si: f64) -> String {
         let number = self.number(si);
@@ -118,9 +145,23 @@ pub(crate) fn significant(value: f64) -> String {
     with_minus(format!("{value:.decimals$}"))
 }
 
-/// Three significant digits times a power of ten.
+/// Two significant digits, for what is only judged by its size: residuals, closures.
+pub(crate) fn size(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return significant(value);
+    }
+    if (1e-3..1e6).contains(&value.abs()) {
+        return ONE.rough(value);
+    }
+    powers_of_ten(format!("{value:.1e}"))
+}
+
+/// Four significant digits times a power of ten.
 fn scientific(value: f64) -> String {
-    let text = format!("{value:.2e}");
+    powers_of_ten(format!("{value:.3e}"))
+}
+
+fn powers_of_ten(text: String) -> String {
     match text.split_once('e') {
         Some((mantissa, exponent)) => {
             let superscript: String = exponent.chars().map(superscript).collect();
@@ -167,7 +208,7 @@ mod tests {
         assert_eq!(significant(-0.0123456), "\u{2212}0.01235");
         assert_eq!(significant(123456.0), "123456");
         assert_eq!(significant(f64::NAN), "n/a");
-        assert_eq!(significant(2.5e-13), "2.50·10⁻¹³");
+        assert_eq!(significant(2.5e-13), "2.500·10⁻¹³");
     }
 
     #[test]
@@ -179,6 +220,16 @@ mod tests {
         assert_eq!(units.flow.symbol, "cm³/s");
         assert_eq!(units.torque.symbol, "mN·m");
         assert_eq!(choose(POWER, f64::NAN).symbol, "mW");
+    }
+
+    #[test]
+    fn chosen_numbers_and_errors_have_no_padding() {
+        assert_eq!(MICROMETRE.plain(1.5e-6), "1.5 µm");
+        assert_eq!(MICROMETRE.plain(100e-6), "100 µm");
+        assert_eq!(MICROMETRE.rough(2.1e-8), "0.021");
+        assert_eq!(ONE.rough(0.0), "0");
+        assert_eq!(size(3.24e-13), "3.2·10⁻¹³");
+        assert_eq!(size(0.0324), "0.032");
     }
 
     #[test]

@@ -14,7 +14,7 @@ mod steady;
 use crate::output::{OutputError, ResultWriter};
 use crate::results::{Body, Results};
 use minijinja::{Environment, Value, context};
-use page::{Page, input_table};
+use page::Page;
 
 const FILE_NAME: &str = "report.html";
 const TEMPLATE: &str = include_str!("assets/report.html");
@@ -52,7 +52,6 @@ pub fn render(results: &Results) -> Result<String, OutputError> {
         Body::LoadCycle(cycle) => cycle::fill(&mut page, header, cycle),
         Body::Dimensionless(integrals) => dimensionless::fill(&mut page, header, integrals),
     };
-    page.tables.extend(input_table(header));
     let data = script_safe(&data.to_string());
     let mut environment = Environment::new();
     environment.set_trim_blocks(true);

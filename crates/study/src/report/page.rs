@@ -25,6 +25,8 @@ pub(crate) struct Page {
     pub figures: Vec<Figure>,
     /// Tables in the order of the page.
     pub tables: Vec<Table>,
+    /// Input of the study, key and value.
+    pub inputs: Vec<(String, String)>,
     /// Models with references.
     pub models: Vec<ModelLine>,
     /// Reproducibility and other facts, label and text.
@@ -100,8 +102,8 @@ pub(crate) struct Table {
     pub columns: Vec<&'static str>,
     /// Rows of cells.
     pub rows: Vec<Vec<Cell>>,
-    /// Takes the full width of the page.
-    pub wide: bool,
+    /// Place in the grid: empty, `wide` or `tall`.
+    pub size: &'static str,
 }
 
 /// One cell of a table.
@@ -179,6 +181,11 @@ impl Page {
             cards: Vec::new(),
             figures: Vec::new(),
             tables: Vec::new(),
+            inputs: header
+                .inputs
+                .iter()
+                .map(|row| (row.key.clone(), row.value.clone()))
+                .collect(),
             models: models(header),
             facts: facts(header),
             study_text: header.study_text.clone(),
@@ -257,27 +264,6 @@ fn facts(header: &Header) -> Vec<(String, String)> {
     facts
 }
 
-/// The table of the study's input.
-pub(crate) fn input_table(header: &Header) -> Option<Table> {
-    let rows: Vec<_> = header
-        .inputs
-        .iter()
-        .map(|row| {
-            let key = Cell {
-                text: row.key.clone(),
-                class: "key",
-            };
-            vec![key, Cell::text(row.value.clone())]
-        })
-        .collect();
-    (!rows.is_empty()).then(|| Table {
-        title: "Input",
-        columns: vec!["Key", "Value"],
-        rows,
-        ..Table::default()
-    })
-}
-
 /// The limits of one quantity in words, in the unit its value is shown in.
 pub(crate) fn checks(header: &Header, quantity: Quantity, unit: format::Unit) -> Vec<Check> {
     header
@@ -310,7 +296,7 @@ fn limit_text(check: &LimitCheck, unit: format::Unit) -> String {
     } else {
         &check.limit.source
     };
-    format!("{sign} {} ({source})", unit.show(check.limit.value))
+    format!("{sign} {} ({source})", unit.plain(check.limit.value))
 }
 
 /// Cells for the limit and the verdict of a quantity: empty where it has none.
@@ -338,5 +324,5 @@ pub(crate) fn limit_cells(
 /// The error of a key of `summary.json` in a reading unit.
 pub(crate) fn error(header: &Header, key: &str, unit: format::Unit) -> Option<String> {
     let value = header.error.as_ref()?.get(key)?;
-    Some(unit.number(*value))
+    Some(unit.rough(*value))
 }

@@ -2,7 +2,7 @@
 
 use super::cycle::map_figures;
 use super::figures;
-use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant};
+use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Card, Cell, Figure, Page, Table, badge, checks, error, limit_cells};
 use crate::limits::Quantity;
 use crate::results::{Header, SteadyResults, degrees, degrees_around, magnitude, place};
@@ -13,12 +13,17 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
     let units = units(steady);
     page.cards = cards(header, steady, &units);
     page.figures = figures_of(steady);
+    let beside: Vec<Table> = [coefficients(steady), feeds(steady, &units)]
+        .into_iter()
+        .flatten()
+        .collect();
     page.tables = vec![results(header, steady, &units), convergence(header, steady)];
-    page.tables
-        .extend(matrix("Stiffness −∂F/∂position", "N/m", steady.stiffness));
-    page.tables
-        .extend(matrix("Damping −∂F/∂velocity", "N·s/m", steady.damping));
-    page.tables.extend(feeds(steady, &units));
+    page.tables[1].size = match beside.len() {
+        0 => "wide",
+        1 => "",
+        _ => "tall",
+    };
+    page.tables.extend(beside);
     json!({
         "units": figures::unit_symbols(&units),
         "position": figures::position_data(steady, &units),
@@ -72,7 +77,7 @@ fn cards(header: &Header, steady: &SteadyResults, units: &Units) -> Vec<Card> {
     };
     let parts = format!(
         "friction {}, squeeze {}",
-        units.power.number(summary.friction_power),
+        units.power.show(summary.friction_power),
         units.power.show(summary.squeeze_power)
     );
     let side = side_flow(steady);
@@ -287,7 +292,7 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
         title: "Results",
         columns: vec!["Quantity", "Value", "Error", "Limit", "Verdict"],
         rows,
-        wide: true,
+        size: "wide",
         ..Table::default()
     }
 }
@@ -296,12 +301,9 @@ fn convergence(header: &Header, steady: &SteadyResults) -> Table {
     let summary = &steady.summary;
     let rows = [
         ("Iterations", steady.iterations.to_string()),
-        ("Mass balance", significant(summary.mass_balance_relative)),
-        (
-            "Complementarity",
-            significant(summary.complementarity_violation),
-        ),
-        ("Cell residual", significant(summary.cell_residual)),
+        ("Mass balance", size(summary.mass_balance_relative)),
+        ("Complementarity", size(summary.complementarity_violation)),
+        ("Cell residual", size(summary.cell_residual)),
         ("Share of full film", significant(summary.full_film_share)),
         (
             "Reynolds number of the film",
@@ -323,22 +325,33 @@ fn convergence(header: &Header, steady: &SteadyResults) -> Table {
     }
 }
 
-fn matrix(title: &'static str, unit: &str, matrix: Option<[[f64; 2]; 2]>) -> Option<Table> {
-    let rows = matrix?
-        .iter()
-        .zip(["Force x", "Force y"])
-        .map(|(row, label)| {
-            let mut cells = vec![Cell::text(label)];
-            cells.extend(row.map(|value| Cell::number(significant(value))));
-            cells
+/// Stiffness and damping side by side, as far as the run has them.
+fn coefficients(steady: &SteadyResults) -> Option<Table> {
+    let parts: Vec<(&str, &str, [[f64; 2]; 2])> = [
+        ("Stiffness x", "y [N/m]", steady.stiffness),
+        ("Damping x", "y [N·s/m]", steady.damping),
+    ]
+    .into_iter()
+    .filter_map(|(x, y, matrix)| Some((x, y, matrix?)))
+    .collect();
+    let rows = ["Force x", "Force y"]
+        .into_iter()
+        .enumerate()
+        .map(|(axis, label)| {
+            let values = parts.iter().flat_map(|(_, _, matrix)| matrix[axis]);
+            std::iter::once(Cell::text(label))
+                .chain(values.map(|value| Cell::number(significant(value))))
+                .collect()
         })
         .collect();
-    Some(Table {
-        title,
-        note: format!("In {unit}, shell frame, at the state above."),
-        columns: vec!["", "x", "y"],
+    let mut columns = vec![""];
+    columns.extend(parts.iter().flat_map(|(x, y, _)| [*x, *y]));
+    (!parts.is_empty()).then(|| Table {
+        title: "Stiffness and damping",
+        note: "−∂F/∂position and −∂F/∂velocity in the shell frame, at the state above.".into(),
+        columns,
         rows,
-        wide: false,
+        ..Table::default()
     })
 }
 
@@ -360,6 +373,6 @@ fn feeds(steady: &SteadyResults, units: &Units) -> Option<Table> {
         note: "Flow into the film; negative where the film pushes oil back.".into(),
         columns: vec!["Feed", "Flow", "Gauge pressure"],
         rows,
-        wide: false,
+        ..Table::default()
     })
 }

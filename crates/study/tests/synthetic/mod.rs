@@ -105,7 +105,7 @@ fn limits() -> [Limit; 2] {
 /// A made-up load cycle.
 pub fn load_cycle(title: &str) -> Results {
     let points: Vec<CyclePoint> = (0..POINTS).map(cycle_point).collect();
-    let worst = points[372];
+    let worst = points[371];
     let feed_flows = points
         .iter()
         .map(|point| {
@@ -162,6 +162,7 @@ pub fn load_cycle_not_converged(title: &str) -> Results {
             cycle.orbit.points[index].outcome = Outcome::NotConverged;
         }
     }
+    results.check_limits(&limits());
     results
 }
 

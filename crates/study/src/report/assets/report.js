@@ -33,6 +33,7 @@
       legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", font: { color: theme.ink } },
       hoverlabel: { bgcolor: theme.paper, bordercolor: theme.line, font: { color: theme.ink } },
       shapes: [], annotations: [],
+      modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.faint, activecolor: theme.first },
     }, extra);
   }
 
@@ -58,7 +59,7 @@
   }
 
   // A mark on the extreme of a curve with its value, on the side that has room.
-  function extremeMark(mark) {
+  function extremeMark(mark, rise) {
     if (!mark || mark.value === null) { return { traces: [], annotations: [] }; }
     const [first, last] = [cycle.angle[0], cycle.angle[cycle.angle.length - 1]];
     const share = (mark.angle - first) / (last - first);
@@ -66,7 +67,7 @@
       traces: [{ x: [mark.angle], y: [mark.value], mode: "markers", hoverinfo: "skip", showlegend: false,
         marker: { color: theme.second, size: 9, line: { color: theme.paper, width: 1.5 } } }],
       annotations: [{ x: mark.angle, y: mark.value, text: mark.label, showarrow: true, arrowhead: 0,
-        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: share > 0.7 ? -46 : 46, ay: -30,
+        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: share > 0.7 ? -40 : 40, ay: -rise,
         xanchor: share > 0.7 ? "right" : "left", font: { color: theme.ink }, bgcolor: theme.paper, borderpad: 2 }],
     };
   }
@@ -87,8 +88,8 @@
       marker: { symbol: "x-thin", size: 9, line: { color: theme.bad, width: 2 } } }];
   }
 
-  function judged(values, title, mark, limits, failedColumn) {
-    const extreme = extremeMark(mark);
+  function judged(values, title, mark, rise, limits, failedColumn) {
+    const extreme = extremeMark(mark, rise);
     const lines = limitLines(limits);
     const traces = [line(cycle.angle, values, title, "first", { showlegend: false }), ...extreme.traces,
       ...(failedColumn ? failedMarks(failedColumn) : [])];
@@ -115,22 +116,40 @@
     return { x: [cx - half, cx + half], y: [cy - half, cy + half] };
   }
 
+  // Marks that lie on each other share one label.
+  function joined(marks, pixel) {
+    const groups = [];
+    for (const mark of marks) {
+      const [x, y] = pixel(mark.x, mark.y);
+      const near = groups.find((group) => Math.hypot(group.px - x, group.py - y) < 9);
+      if (near) { near.label += ", " + mark.label; } else { groups.push({ ...mark, px: x, py: y }); }
+    }
+    return groups;
+  }
+
+  // Points every 4 pixels along a path.
+  function walked(points) {
+    const walk = [];
+    for (let i = 1; i < points.length; i += 1) {
+      const [a, b] = [points[i - 1], points[i]];
+      const pieces = Math.max(1, Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / 4));
+      for (let k = 0; k < pieces; k += 1) {
+        walk.push([a[0] + (b[0] - a[0]) * k / pieces, a[1] + (b[1] - a[1]) * k / pieces]);
+      }
+    }
+    return walk;
+  }
+
   // Labels of the crank-angle marks: each takes the free place nearest to its mark, so that labels
   // cover neither each other nor the curve. Sizes in pixels; the plot area is square.
-  function markLabels(element, box, marks, xs, ys) {
+  function markLabels(element, box, single, paths) {
     const side = Math.max(120, Math.min(element.clientWidth - 76, element.clientHeight - 58));
     const scale = side / (box.x[1] - box.x[0]);
     const pixel = (x, y) => [(x - box.x[0]) * scale, (box.y[1] - y) * scale];
     const taken = [];
+    const marks = joined(single, pixel);
     const dots = marks.map((mark) => pixel(mark.x, mark.y));
-    const curve = [];
-    for (let i = 1; i < xs.length; i += 1) {
-      const [a, b] = [pixel(xs[i - 1], ys[i - 1]), pixel(xs[i], ys[i])];
-      const pieces = Math.max(1, Math.ceil(Math.hypot(b[0] - a[0], b[1] - a[1]) / 4));
-      for (let k = 0; k < pieces; k += 1) {
-        curve.push([a[0] + (b[0] - a[0]) * k / pieces, a[1] + (b[1] - a[1]) * k / pieces]);
-      }
-    }
+    const curve = paths.flatMap(([xs, ys]) => walked(xs.map((x, i) => pixel(x, ys[i]))));
     return marks.map((mark, index) => {
       const [px, py] = dots[index];
       const half = [4 + 3.6 * mark.label.length, 9];
@@ -144,7 +163,7 @@
           const inside = ([x, y]) => Math.abs(x - cx) < half[0] + 1 && Math.abs(y - cy) < half[1] + 1;
           const outside = cx - half[0] < 0 || cx + half[0] > side || cy - half[1] < 0 || cy + half[1] > side;
           const meets = taken.filter((t) => Math.abs(t.cx - cx) < t.half[0] + half[0] && Math.abs(t.cy - cy) < t.half[1] + half[1]).length;
-          const cost = 100 * meets + 4 * curve.filter(inside).length + 40 * dots.filter(inside).length + (outside ? 100 : 0) + 0.35 * reach;
+          const cost = 100 * meets + 1.5 * curve.filter(inside).length + 40 * dots.filter(inside).length + (outside ? 100 : 0) + 0.6 * reach;
           if (!best || cost < best.cost) { best = { cost, dx, dy, cx, cy, half }; }
         }
       }
@@ -161,7 +180,7 @@
   }
 
   function path(xs, ys) {
-    return { x: xs, y: ys, mode: "lines", line: { color: theme.first, width: 1.8 }, customdata: cycle.angle,
+    return { x: xs, y: ys, mode: "lines", line: { color: theme.first, width: 1.8, simplify: false }, customdata: cycle.angle,
       hovertemplate: "crank angle %{customdata:.1f}°<br>x %{x:.4~g}, y %{y:.4~g}<extra></extra>" };
   }
 
@@ -169,13 +188,18 @@
     const box = squareBox(cycle.load_x, cycle.load_y);
     const marks = cycle.marks.map((mark) => ({ label: mark.label, x: mark.load[0], y: mark.load[1] }));
     return plane(element, box, ["Load x", "Load y"], units.force, [path(cycle.load_x, cycle.load_y), markDots(marks)],
-      { annotations: markLabels(element, box, marks, cycle.load_x, cycle.load_y) });
+      { annotations: markLabels(element, box, marks, [[cycle.load_x, cycle.load_y]]) });
   }
 
-  const circle = (radius, style) => ({ type: "circle", x0: -radius, x1: radius, y0: -radius, y1: radius, layer: "below", line: style });
+  const circle = (radius, style) => ({ type: "circle", x0: -radius, x1: radius, y0: -radius, y1: radius, layer: "between", line: style });
 
   function clearanceCircle() {
     return [circle(1, { color: theme.ink, width: 1.6 }), circle(0.5, { color: theme.line, width: 1, dash: "dot" })];
+  }
+
+  function touching() {
+    const turns = Array.from({ length: 181 }, (_, i) => i * Math.PI / 90);
+    return [turns.map(Math.cos), turns.map(Math.sin)];
   }
 
   const eccentricityTitles = ["Relative eccentricity x", "Relative eccentricity y"];
@@ -186,7 +210,7 @@
     const marks = cycle.marks.map((mark) => ({ label: mark.label, x: mark.position[0], y: mark.position[1] }));
     const failed = failedPlaces();
     return plane(element, box, eccentricityTitles, "–", [path(cycle.x, cycle.y), markDots(marks), ...failed],
-      { shapes: clearanceCircle(), annotations: markLabels(element, box, marks, cycle.x, cycle.y) });
+      { shapes: clearanceCircle(), annotations: markLabels(element, box, marks, [[cycle.x, cycle.y], touching()]) });
   }
 
   function failedPlaces() {
@@ -206,14 +230,16 @@
       const size = Math.hypot(dx, dy);
       if (!(size > 0.02)) { return []; }
       const [x, y] = [position.x + dx, position.y + dy];
-      // The label stands beyond the head of its arrow, off the line of the arrow and of the circle.
+      // Labels stay within the length of their arrows: above the load and below the force where
+      // the arrows are flat, beside their heads where they are steep.
       const flat = Math.abs(dx) > Math.abs(dy);
+      const above = name === "load" ? 1 : -1;
       return [
         { x, y, ax: position.x, ay: position.y, axref: "x", ayref: "y", text: "", showarrow: true, arrowhead: 2,
           arrowsize: 1.1, arrowwidth: 2.4, arrowcolor: theme[color] },
-        { x, y, text: `${name} ${vector.label}`, showarrow: false, font: { color: theme[color] }, bgcolor: theme.paper,
-          xanchor: flat ? (dx > 0 ? "left" : "right") : "center", yanchor: flat ? "middle" : (dy > 0 ? "bottom" : "top"),
-          xshift: flat ? 6 * Math.sign(dx) : 0, yshift: flat ? 0 : 6 * Math.sign(dy) },
+        { x, y, text: `${name} ${vector.label}`, showarrow: false, font: { color: theme[color] },
+          xanchor: flat && dx > 0 ? "right" : "left", yanchor: flat ? (above > 0 ? "bottom" : "top") : "middle",
+          xshift: flat ? 0 : 10, yshift: flat ? 7 * above : 0 },
       ];
     });
     const traces = [
@@ -230,7 +256,7 @@
   const onMap = [{ color: "#101418", extra: 2.2 }, { color: "#ffffff", extra: 0 }];
 
   function placeMark(mark, symbol, size) {
-    return onMap.map(({ color, extra }) => ({ x: [mark.angle], y: [mark.axial], mode: "markers", showlegend: false,
+    return onMap.map(({ color, extra }) => ({ x: [mark.angle], y: [mark.axial], mode: "markers", showlegend: false, cliponaxis: false,
       hovertemplate: mark.label + "<extra></extra>",
       marker: { symbol, size: size + extra, color, line: { color, width: 1.8 + extra } } }));
   }
@@ -275,8 +301,8 @@
     position: journalPosition,
     "pressure-map": pressureMap,
     "fraction-map": fractionMap,
-    thickness: () => judged(cycle.thickness, "Minimum film thickness [µm]", cycle.thinnest, cycle.thickness_limits, 1),
-    pressure: () => judged(cycle.pressure, withUnit("Peak film pressure", units.pressure), cycle.highest, cycle.pressure_limits),
+    thickness: () => judged(cycle.thickness, "Minimum film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
+    pressure: () => judged(cycle.pressure, withUnit("Peak film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
     power: () => curves([
       line(cycle.angle, cycle.power, "total", "first"),
       line(cycle.angle, cycle.friction_power, "friction", "second", { line: { color: theme.second, width: 1.5, dash: "dash" } }),
@@ -306,8 +332,9 @@
     ], "Film thickness [µm]", bearingAxis()),
   };
 
-  const config = { displaylogo: false, responsive: true, plotlyServerURL: "",
-    modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"], toImageButtonOptions: { format: "svg" } };
+  // The tool bar needs a pointer that hovers; on paper and on touch screens it would only cover curves.
+  const config = { displaylogo: false, displayModeBar: matchMedia("(hover: hover)").matches ? "hover" : false, responsive: true, plotlyServerURL: "",
+    modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"] };
 
   function drawAll(printing) {
     readTheme(printing);
