@@ -1,6 +1,6 @@
 //! The report of the dimensionless problem: five integrals.
 
-use super::format::{ONE, significant};
+use super::format::{ONE, long, significant};
 use super::page::{Card, Cell, Page, Table, badge, error};
 use crate::results::{DimensionlessResults, Header};
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, integrals: &DimensionlessRe
                 class: "key",
             },
             Cell::text(label),
-            Cell::number(format!("{value:.8}")),
+            Cell::number(long(value)),
             Cell::number(error.unwrap_or_else(|| "not asked for".to_owned())),
         ]);
     }

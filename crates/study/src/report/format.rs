@@ -97,8 +97,8 @@ impl Unit {
     /// The size of an error in this unit, without the symbol: two digits say enough.
     pub fn rough(self, si: f64) -> String {
         let value = si * self.factor;
-        if !value.is_finite() || value == 0.0 {
-            return significant(value);
+        if !(1e-3..1e6).contains(&value.abs()) {
+            return size(value);
         }
         let unit = 10f64.powf(value.abs().log10().floor() - 1.0);
         let rounded = (value / unit).round() * unit;
@@ -143,6 +143,15 @@ pub(crate) fn significant(value: f64) -> String {
     };
     let decimals = (3.0 - exponent).max(0.0) as usize;
     with_minus(format!("{value:.decimals$}"))
+}
+
+/// Eight decimals, for numbers that others compare theirs with.
+pub(crate) fn long(value: f64) -> String {
+    if value.is_finite() {
+        with_minus(format!("{value:.8}"))
+    } else {
+        NO_NUMBER.to_owned()
+    }
 }
 
 /// Two significant digits, for what is only judged by its size: residuals, closures.
@@ -230,6 +239,8 @@ mod tests {
         assert_eq!(ONE.rough(0.0), "0");
         assert_eq!(size(3.24e-13), "3.2·10⁻¹³");
         assert_eq!(size(0.0324), "0.032");
+        assert_eq!(ONE.rough(1.52e-4), "1.5·10⁻⁴");
+        assert_eq!(long(-1.25), "\u{2212}1.25000000");
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! script and the drawing library are in the file, and a content policy in its head forbids the rest.
 
 mod cycle;
+mod cycle_tables;
 mod dimensionless;
 mod figures;
 mod format;

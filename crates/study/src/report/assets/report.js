@@ -47,7 +47,7 @@
   const bearingAxis = () => axis("Bearing angle [°]", { range: [0, 360], tick0: 0, dtick: 45 });
 
   function line(x, y, name, color, extra) {
-    return Object.assign({ x, y, name, mode: "lines", line: { color: theme[color], width: 1.8 },
+    return Object.assign({ x, y, name, mode: "lines", line: { color: theme[color], width: 1.8, simplify: false },
       hovertemplate: "%{y:.4~g}" }, extra);
   }
 
@@ -59,16 +59,16 @@
   }
 
   // A mark on the extreme of a curve with its value, on the side that has room.
-  function extremeMark(mark, rise) {
+  function extremeMark(element, mark, rise) {
     if (!mark || mark.value === null) { return { traces: [], annotations: [] }; }
     const [first, last] = [cycle.angle[0], cycle.angle[cycle.angle.length - 1]];
-    const share = (mark.angle - first) / (last - first);
+    const right = (1 - (mark.angle - first) / (last - first)) * (element.clientWidth - 76) > 170;
     return {
       traces: [{ x: [mark.angle], y: [mark.value], mode: "markers", hoverinfo: "skip", showlegend: false,
         marker: { color: theme.second, size: 9, line: { color: theme.paper, width: 1.5 } } }],
       annotations: [{ x: mark.angle, y: mark.value, text: mark.label, showarrow: true, arrowhead: 0,
-        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: share > 0.7 ? -40 : 40, ay: -rise,
-        xanchor: share > 0.7 ? "right" : "left", font: { color: theme.ink }, bgcolor: theme.paper, borderpad: 2 }],
+        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: right ? 40 : -40, ay: -rise,
+        xanchor: right ? "left" : "right", font: { color: theme.ink }, bgcolor: theme.paper, borderpad: 2 }],
     };
   }
 
@@ -88,8 +88,8 @@
       marker: { symbol: "x-thin", size: 9, line: { color: theme.bad, width: 2 } } }];
   }
 
-  function judged(values, title, mark, rise, limits, failedColumn) {
-    const extreme = extremeMark(mark, rise);
+  function judged(element, values, title, mark, rise, limits, failedColumn) {
+    const extreme = extremeMark(element, mark, rise);
     const lines = limitLines(limits);
     const traces = [line(cycle.angle, values, title, "first", { showlegend: false }), ...extreme.traces,
       ...(failedColumn ? failedMarks(failedColumn) : [])];
@@ -111,7 +111,7 @@
     const finite = (values) => values.filter((value) => value !== null);
     const [x0, x1] = [Math.min(0, ...finite(xs)), Math.max(0, ...finite(xs))];
     const [y0, y1] = [Math.min(0, ...finite(ys)), Math.max(0, ...finite(ys))];
-    const half = 0.58 * Math.max(x1 - x0, y1 - y0, 1e-12);
+    const half = 0.66 * Math.max(x1 - x0, y1 - y0, 1e-12);
     const [cx, cy] = [(x0 + x1) / 2, (y0 + y1) / 2];
     return { x: [cx - half, cx + half], y: [cy - half, cy + half] };
   }
@@ -163,13 +163,15 @@
           const inside = ([x, y]) => Math.abs(x - cx) < half[0] + 1 && Math.abs(y - cy) < half[1] + 1;
           const outside = cx - half[0] < 0 || cx + half[0] > side || cy - half[1] < 0 || cy + half[1] > side;
           const meets = taken.filter((t) => Math.abs(t.cx - cx) < t.half[0] + half[0] && Math.abs(t.cy - cy) < t.half[1] + half[1]).length;
-          const cost = 100 * meets + 1.5 * curve.filter(inside).length + 40 * dots.filter(inside).length + (outside ? 100 : 0) + 0.6 * reach;
+          const leader = [0.3, 0.5, 0.7, 0.9].map((share) => [px + share * dx, py + share * dy]);
+          const hidden = dots.filter((dot, other) => other !== index && leader.some(([x, y]) => Math.hypot(x - dot[0], y - dot[1]) < 8)).length;
+          const cost = 100 * meets + 60 * hidden + 1.5 * curve.filter(inside).length + 40 * dots.filter(inside).length + (outside ? 100 : 0) + 0.6 * reach;
           if (!best || cost < best.cost) { best = { cost, dx, dy, cx, cy, half }; }
         }
       }
       taken.push(best);
       return { x: mark.x, y: mark.y, text: mark.label, showarrow: true, arrowhead: 0, arrowwidth: 0.7,
-        arrowcolor: theme.faint, standoff: 5, ax: best.dx, ay: best.dy, xanchor: "center", yanchor: "middle",
+        arrowcolor: theme.soft, standoff: 5, ax: best.dx, ay: best.dy, xanchor: "center", yanchor: "middle",
         font: { color: theme.ink, size: 11 }, borderpad: 1 };
     });
   }
@@ -301,8 +303,8 @@
     position: journalPosition,
     "pressure-map": pressureMap,
     "fraction-map": fractionMap,
-    thickness: () => judged(cycle.thickness, "Minimum film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
-    pressure: () => judged(cycle.pressure, withUnit("Peak film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
+    thickness: (element) => judged(element, cycle.thickness, "Minimum film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
+    pressure: (element) => judged(element, cycle.pressure, withUnit("Peak film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
     power: () => curves([
       line(cycle.angle, cycle.power, "total", "first"),
       line(cycle.angle, cycle.friction_power, "friction", "second", { line: { color: theme.second, width: 1.5, dash: "dash" } }),
@@ -341,7 +343,10 @@
     for (const element of document.querySelectorAll("[data-kind]")) {
       const figure = drawings[element.dataset.kind](element);
       const named = Object.assign({}, config, { toImageButtonOptions: { format: "svg", filename: element.dataset.kind } });
-      Plotly.react(element, figure.traces, figure.layout, named);
+      // Paper does not tell its size by events: the size is that of the style sheet for print.
+      const size = printing ? { autosize: false, width: element.clientWidth, height: element.clientHeight }
+        : { autosize: true };
+      Plotly.react(element, figure.traces, Object.assign(figure.layout, size), named);
     }
   }
 
@@ -350,7 +355,6 @@
   addEventListener("beforeprint", () => {
     document.documentElement.classList.add("printing");
     drawAll(true);
-    document.querySelectorAll("[data-kind]").forEach((element) => Plotly.Plots.resize(element));
   });
   addEventListener("afterprint", () => {
     document.documentElement.classList.remove("printing");
