@@ -2,11 +2,11 @@
 
 use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
-use super::page::{Cell, Table, headline, limit_cells};
+use super::page::{Cell, Table, headline, last_iterates, limit_cells};
 use crate::limits::Quantity;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use sommerfeld_bearing::CyclePoint;
-use sommerfeld_film::{Extreme, FilmSummary};
+use sommerfeld_film::{Extreme, FilmSummary, Outcome};
 
 /// So many rows that did not converge are listed; the table of the cycle names all of them.
 const LISTED_ROWS: usize = 24;
@@ -38,6 +38,11 @@ struct Peak<'a> {
 impl Peak<'_> {
     fn cells(&self, header: &Header) -> Option<Vec<Cell>> {
         let point = self.point?;
+        // A converged step of a run that did not converge is still part of no result.
+        let status = match point.outcome {
+            Outcome::Converged => header.status,
+            failed => failed,
+        };
         let [bearing_angle, axial] = match self.in_film {
             Some(extreme) => {
                 let (degrees, axial) = place(extreme(&point.summary));
@@ -55,7 +60,7 @@ impl Peak<'_> {
             axial,
             limit,
             verdict,
-            Cell::outcome(point.outcome),
+            Cell::outcome(status),
         ])
     }
 }
@@ -185,6 +190,7 @@ fn means(header: &Header, cycle: &CycleResults, units: &Units) -> Table {
     }
     Table {
         title: "Means over the cycle",
+        note: last_iterates(header),
         rows,
         ..Table::default()
     }

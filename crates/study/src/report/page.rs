@@ -208,6 +208,13 @@ pub(crate) fn badge(outcome: Outcome) -> Option<&'static str> {
     (outcome != Outcome::Converged).then(|| headline(outcome))
 }
 
+/// The note of a table whose numbers did not converge; empty where they did.
+pub(crate) fn last_iterates(header: &Header) -> String {
+    badge(header.status).map_or_else(String::new, |status| {
+        format!("{status}: these numbers are last iterates, not results.")
+    })
+}
+
 fn explanation(outcome: Outcome) -> &'static str {
     match outcome {
         Outcome::Converged => "Every calculation reached its tolerance.",

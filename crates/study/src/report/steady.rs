@@ -3,7 +3,9 @@
 use super::cycle::map_figures;
 use super::figures;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
-use super::page::{Card, Cell, Figure, Page, Table, badge, checks, error, limit_cells};
+use super::page::{
+    Card, Cell, Figure, Page, Table, badge, checks, error, last_iterates, limit_cells,
+};
 use crate::limits::Quantity;
 use crate::results::{Header, SteadyResults, degrees, degrees_around, magnitude, place};
 use serde_json::{Value, json};
@@ -290,6 +292,7 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
     ]);
     Table {
         title: "Results",
+        note: last_iterates(header),
         columns: vec!["Quantity", "Value", "Error", "Limit", "Verdict"],
         rows,
         size: "wide",

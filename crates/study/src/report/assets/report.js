@@ -8,7 +8,8 @@
   function readTheme(printing) {
     const style = getComputedStyle(document.documentElement);
     const names = ["paper", "ink", "soft", "line", "first", "second", "third", "faint", "bad", "text"];
-    theme = Object.fromEntries(names.map((name) => [name, style.getPropertyValue("--" + name).trim()]));
+    theme = { size: printing ? 10 : 12 };
+    Object.assign(theme, Object.fromEntries(names.map((name) => [name, style.getPropertyValue("--" + name).trim()])));
     if (printing) {
       Object.assign(theme, { paper: "#ffffff", ink: "#1c2126", soft: "#5b646d", line: "#dfe1de",
         first: "#0072b2", second: "#c8550a", third: "#00795c", faint: "#9aa3ab", bad: "#a3210f" });
@@ -27,7 +28,7 @@
 
   function layout(xaxis, yaxis, extra) {
     return Object.assign({
-      font: { family: theme.text, size: 12, color: theme.soft },
+      font: { family: theme.text, size: theme.size, color: theme.soft },
       paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
       margin: { l: 58, r: 18, t: 12, b: 46 }, xaxis, yaxis, showlegend: false,
       legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", font: { color: theme.ink } },
@@ -62,12 +63,13 @@
   function extremeMark(element, mark, rise) {
     if (!mark || mark.value === null) { return { traces: [], annotations: [] }; }
     const [first, last] = [cycle.angle[0], cycle.angle[cycle.angle.length - 1]];
-    const right = (1 - (mark.angle - first) / (last - first)) * (element.clientWidth - 76) > 170;
+    const reach = element.clientWidth < 400 ? 20 : 40;
+    const right = (1 - (mark.angle - first) / (last - first)) * (element.clientWidth - 76) > reach + 9.5 * theme.size;
     return {
       traces: [{ x: [mark.angle], y: [mark.value], mode: "markers", hoverinfo: "skip", showlegend: false,
         marker: { color: theme.second, size: 9, line: { color: theme.paper, width: 1.5 } } }],
       annotations: [{ x: mark.angle, y: mark.value, text: mark.label, showarrow: true, arrowhead: 0,
-        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: right ? 40 : -40, ay: -rise,
+        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: right ? reach : -reach, ay: -rise,
         xanchor: right ? "left" : "right", font: { color: theme.ink }, bgcolor: theme.paper, borderpad: 2 }],
     };
   }
@@ -303,8 +305,8 @@
     position: journalPosition,
     "pressure-map": pressureMap,
     "fraction-map": fractionMap,
-    thickness: (element) => judged(element, cycle.thickness, "Minimum film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
-    pressure: (element) => judged(element, cycle.pressure, withUnit("Peak film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
+    thickness: (element) => judged(element, cycle.thickness, "Film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
+    pressure: (element) => judged(element, cycle.pressure, withUnit("Film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
     power: () => curves([
       line(cycle.angle, cycle.power, "total", "first"),
       line(cycle.angle, cycle.friction_power, "friction", "second", { line: { color: theme.second, width: 1.5, dash: "dash" } }),
@@ -316,7 +318,7 @@
       line(cycle.angle, cycle.storage, "storage", "third", { line: { color: theme.third, width: 1.5, dash: "dot" } }),
     ], withUnit("Flow", units.flow), crankAxis()),
     eccentricity: () => curves([line(cycle.angle, cycle.eccentricity, "relative eccentricity", "first", { showlegend: false }),
-      ...failedMarks(2)], "Relative eccentricity [–]", crankAxis()),
+      ...failedMarks(2)], "Eccentricity [–]", crankAxis()),
     load: () => curves([
       line(cycle.angle, cycle.load, "magnitude", "first"),
       line(cycle.angle, cycle.load_x, "x", "second", { line: { color: theme.second, width: 1.5, dash: "dash" } }),
