@@ -296,7 +296,6 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
         columns: vec!["Quantity", "Value", "Error", "Limit", "Verdict"],
         rows,
         size: "wide",
-        ..Table::default()
     }
 }
 
