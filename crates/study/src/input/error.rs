@@ -310,3 +310,9 @@ impl From<InputError> for InputErrors {
         Self(vec![error])
     }
 }
+
+impl From<Box<InputError>> for InputErrors {
+    fn from(error: Box<InputError>) -> Self {
+        Self(vec![*error])
+    }
+}

@@ -37,9 +37,9 @@ pub fn study_from_text(file: &str, text: &str, directory: &Path) -> Result<Study
 }
 
 /// Reads a text file of at most `cap` bytes.
-pub(super) fn read_text(path: &Path, cap: u64) -> Result<String, InputError> {
+pub(super) fn read_text(path: &Path, cap: u64) -> Result<String, Box<InputError>> {
     let name = path.to_string_lossy();
-    let refuse = |message: String| InputError::new(&name, message);
+    let refuse = |message: String| Box::new(InputError::new(&name, message));
     let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => refuse("there is no such file".into()),
         ErrorKind::PermissionDenied => refuse("the file may not be read: permission denied".into()),
@@ -54,17 +54,19 @@ pub(super) fn read_text(path: &Path, cap: u64) -> Result<String, InputError> {
         .and_then(|file| file.take(cap + 1).read_to_end(&mut bytes))
         .map_err(|error| refuse(format!("the file cannot be read: {error}")))?;
     if bytes.len() as u64 > cap {
-        return Err(
-            refuse("the file is too large".into()).allowing(format!("at most {} MB", cap >> 20))
-        );
+        return Err(InputError::new(&name, "the file is too large")
+            .allowing(format!("at most {} MB", cap >> 20))
+            .into());
     }
     decode(&name, bytes)
 }
 
 /// UTF-8 text without a byte order mark.
-fn decode(name: &str, bytes: Vec<u8>) -> Result<String, InputError> {
+fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Box<InputError>> {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(InputError::new(name, "the file is UTF-16 text").hinting("save it as UTF-8"));
+        return Err(InputError::new(name, "the file is UTF-16 text")
+            .hinting("save it as UTF-8")
+            .into());
     }
     match String::from_utf8(bytes) {
         Ok(text) => Ok(match text.strip_prefix('\u{feff}') {
@@ -77,7 +79,8 @@ fn decode(name: &str, bytes: Vec<u8>) -> Result<String, InputError> {
             Err(
                 InputError::new(name, "the file is not UTF-8 text from here on")
                     .at(Place::of_span(&good, valid..valid))
-                    .hinting("save it as UTF-8"),
+                    .hinting("save it as UTF-8")
+                    .into(),
             )
         }
     }

@@ -231,7 +231,7 @@ fn read_rows<'t>(
                 }
                 _ => rows.push(row),
             },
-            Err(error) => errors.push(error),
+            Err(error) => errors.push(*error),
         }
         if errors.len() >= MOST_ERRORS {
             break;
@@ -253,16 +253,16 @@ fn read_rows<'t>(
     }
 }
 
-fn read_row(file: &str, line: Line<'_>, columns: &[Column<'_>]) -> Result<Row, InputError> {
+fn read_row(file: &str, line: Line<'_>, columns: &[Column<'_>]) -> Result<Row, Box<InputError>> {
     let cells = line.cells().count();
     if cells != columns.len() {
         let message = format!("{cells} values, the header names {} columns", columns.len());
         let error = line.error(file, 0..line.text.len(), message);
-        return Err(if cells > columns.len() {
+        return Err(Box::new(if cells > columns.len() {
             error.hinting("decimals take a point, columns are separated by one comma")
         } else {
             error
-        });
+        }));
     }
     let mut values = [0.0; COLUMNS.len()];
     for (column, (cell, span)) in columns.iter().zip(line.cells()) {
@@ -272,12 +272,12 @@ fn read_row(file: &str, line: Line<'_>, columns: &[Column<'_>]) -> Result<Row, I
             Some(value) if value.is_finite() => values[column.index] = value,
             Some(_) => {
                 let message = format!("`{name}` is not a finite number");
-                return Err(line.error(file, span, message));
+                return Err(line.error(file, span, message).into());
             }
             None => {
                 let shown: String = cell.chars().take(40).collect();
                 let message = format!("`{name}` is not a number: `{}`", shown.escape_debug());
-                return Err(line.error(file, span, message));
+                return Err(line.error(file, span, message).into());
             }
         }
     }
@@ -348,7 +348,7 @@ fn close(
                 .hinting("cut the table to one period or set load_cycle.period"),
         ]);
     }
-    let warning = closing_step(&rows).map(|(name, share)| {
+    let warning = closing_step(&rows, settings.period).map(|(name, share)| {
         InputError::new(
             file,
             format!(
@@ -366,21 +366,28 @@ fn close(
     Ok((rows, warning))
 }
 
-/// Column with the largest step from the last row to the first, if above [`CLOSING_STEP`].
-fn closing_step(rows: &[Row]) -> Option<(&'static str, f64)> {
-    let (first, last) = (rows.first()?, rows.last()?);
+/// Column with the largest step from the last row to the first, if it stays above [`CLOSING_STEP`]
+/// when what the slope of the rows beside explains over the closing angle is taken off.
+fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
+    let [first, second, .., before_last, last] = rows else {
+        return None;
+    };
+    let closing_angle = (first.values[0] + period - last.values[0]).max(0.0);
+    let slope = |from: &Row, to: &Row, index: usize| {
+        ((to.values[index] - from.values[index]) / (to.values[0] - from.values[0])).abs()
+    };
     (1..COLUMNS.len())
         .map(|index| {
             let values = || rows.iter().map(|row| row.values[index]);
             let range =
                 values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+            let steepest = slope(first, second, index).max(slope(before_last, last, index));
             let step = (last.values[index] - first.values[index]).abs();
-            (
-                COLUMNS[index].0,
-                if range > 0.0 { step / range } else { 0.0 },
-            )
+            let unexplained = step - steepest * closing_angle;
+            let is_step = range > 0.0 && unexplained > CLOSING_STEP * range;
+            (COLUMNS[index].0, if is_step { step / range } else { 0.0 })
         })
-        .filter(|&(_, share)| share > CLOSING_STEP)
+        .filter(|&(_, share)| share > 0.0)
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
@@ -486,7 +493,8 @@ mod tests {
     #[test]
     fn a_step_where_the_cycle_closes_is_a_warning() {
         let table =
-            read("crank_angle[deg],load_x[N],load_y[N]\n0,1,0\n360,5,2\n719,4,0\n").unwrap();
+            read("crank_angle[deg],load_x[N],load_y[N]\n0,1,0\n360,5,2\n540,4,1\n719,4,0\n")
+                .unwrap();
         assert_eq!(table.warnings.len(), 1);
         assert!(
             table.warnings[0]

@@ -6,7 +6,7 @@ mod duty;
 use super::error::{InputError, InputErrors};
 use super::keys::KEYS;
 use super::read::{Entries, Entry, Reading, Value, default_value};
-use super::schema::{Key, Kind, Mode, Presence, find};
+use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
     Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
@@ -73,6 +73,7 @@ fn newer_schema(reading: &Reading<'_>) -> Option<InputError> {
     let version: i64 = error.value.parse().ok()?;
     (version > 1).then(|| InputError {
         message: format!("the study is written for a newer schema, {version}"),
+        allowed: Some("schema 1".into()),
         hint: Some(format!(
             "use a newer version of the program; this is {}",
             env!("CARGO_PKG_VERSION")
@@ -199,6 +200,14 @@ impl Checker<'_> {
         .of_key(path)
     }
 
+    /// An unknown key was taken for this one: one slip, one message.
+    fn was_misspelt(&self, key: &Key) -> bool {
+        self.errors.iter().any(|error| {
+            find(&error.key).is_none()
+                && nearest(&error.key).is_some_and(|meant| meant.path == key.path)
+        })
+    }
+
     /// Reports keys that this study needs and the file does not give.
     fn report_missing(&mut self) {
         for key in KEYS {
@@ -206,7 +215,8 @@ impl Checker<'_> {
             let is_due = key.presence == Presence::Required
                 && key.used_by.contains(&self.mode)
                 && section != "bearing.groove"
-                && !self.reading.was_given(key.path);
+                && !self.reading.was_given(key.path)
+                && !self.was_misspelt(key);
             // A quantity given in place of a law has no keys; a missing section is one error.
             let header = self.entry(section);
             let has_section =
@@ -222,6 +232,7 @@ impl Checker<'_> {
                 if key.presence == Presence::Required
                     && !group.contains_key(key.path)
                     && !self.errors.iter().any(|error| error.key == key.path)
+                    && !self.was_misspelt(key)
                 {
                     self.errors.push(missing(&self.reading, key, Some(header)));
                 }
