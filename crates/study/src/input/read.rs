@@ -8,6 +8,9 @@ use std::ops::Range as Span;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// More errors than this in one file are not looked for: placing each takes a walk over the file.
+pub(super) const MOST_ERRORS: usize = 100;
+
 /// A value as read, SI.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
@@ -27,6 +30,8 @@ pub(super) enum Value {
     Limit(f64, String),
     /// A table; its keys are entries of their own.
     Table,
+    /// Given, but refused with an error of its own: not to be reported as missing, too.
+    Unreadable,
 }
 
 /// A value with its place in the file.
@@ -49,8 +54,6 @@ pub(super) struct Reading<'t> {
     pub(super) entries: Entries,
     /// One set of entries per `[[bearing.groove]]`, with the place of its header.
     pub(super) grooves: Vec<(Span<usize>, Entries)>,
-    /// Keys that were given but could not be read: not to be reported as missing, too.
-    unreadable: Vec<&'static str>,
     pub(super) errors: Vec<InputError>,
 }
 
@@ -62,11 +65,10 @@ impl<'t> Reading<'t> {
             text,
             entries: Entries::new(),
             grooves: Vec::new(),
-            unreadable: Vec::new(),
             errors: Vec::new(),
         };
         let (document, syntax) = DeTable::parse_recoverable(text);
-        for error in &syntax {
+        for error in syntax.iter().take(MOST_ERRORS) {
             let error = reading.syntax_error(error);
             reading.errors.push(error);
         }
@@ -89,7 +91,7 @@ impl<'t> Reading<'t> {
 
     /// The key was given, readable or not.
     pub(super) fn was_given(&self, path: &str) -> bool {
-        self.entries.contains_key(path) || self.unreadable.contains(&path)
+        self.entries.contains_key(path)
     }
 
     fn syntax_error(&self, error: &toml::de::Error) -> InputError {
@@ -122,21 +124,23 @@ impl<'t> Reading<'t> {
     /// Reads the keys of a table. `path` is its full key.
     fn table(&mut self, path: &str, table: &DeTable<'_>, entries: &mut Entries) {
         for (name, value) in table {
+            if self.errors.len() >= MOST_ERRORS {
+                return;
+            }
             let full = join(path, name.get_ref());
             let Some(key) = schema::find(&full) else {
                 self.unknown_key(&full, &name.span());
                 continue;
             };
-            if let Some(read) = self.value(key, name, value, entries) {
-                let entry = Entry {
-                    value: read,
-                    key_span: name.span(),
-                    value_span: value.span(),
-                };
-                entries.insert(key.path, entry);
-            } else {
-                self.unreadable.push(key.path);
-            }
+            let read = self
+                .value(key, name, value, entries)
+                .unwrap_or(Value::Unreadable);
+            let entry = Entry {
+                value: read,
+                key_span: name.span(),
+                value_span: value.span(),
+            };
+            entries.insert(key.path, entry);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Checker, as_number, as_text, value_in};
 use crate::input::error::InputError;
-use crate::input::read::{Entries, Value};
+use crate::input::read::{Entries, MOST_ERRORS, Value};
 use crate::input::study::FilmModel;
 use sommerfeld_film::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
@@ -175,7 +175,7 @@ impl Checker<'_> {
         ];
         for (path, own) in RULES {
             let given = self.entry(path).map(|entry| entry.value.clone());
-            if given.is_some_and(|value| value != Value::Text(own.to_owned())) {
+            if matches!(given, Some(Value::Text(word)) if word != own) {
                 let message = format!("the model {} cannot do this", model.name());
                 let error = self
                     .error_at(path, message)
@@ -214,6 +214,9 @@ impl Checker<'_> {
         let mut feeds = Vec::new();
         let mut errors = Vec::new();
         for (header, entries) in &self.reading.grooves {
+            if errors.len() >= MOST_ERRORS {
+                break;
+            }
             let groove = GrooveCheck {
                 checker: self,
                 header,
@@ -378,8 +381,7 @@ impl GrooveCheck<'_, '_> {
         for name in ["angle", "diameter", "length", "width"] {
             let path = format!("bearing.groove.{name}");
             let is_given = self.entries.contains_key(path.as_str());
-            let was_refused = self.checker.errors.iter().any(|error| error.key == path);
-            if own.contains(&name) && !is_given && !was_refused {
+            if own.contains(&name) && !is_given {
                 let error = self.error(
                     "bearing.groove.kind",
                     format!("a groove of kind {kind} needs `{name}`"),

@@ -5,7 +5,7 @@ mod duty;
 
 use super::error::{InputError, InputErrors};
 use super::keys::KEYS;
-use super::read::{Entries, Entry, Reading, Value, default_value};
+use super::read::{Entries, Entry, MOST_ERRORS, Reading, Value, default_value};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
     Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
@@ -18,6 +18,10 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
     let mut reading = Reading::of(file, text);
     if let Some(error) = newer_schema(&reading) {
         return Err(error.into());
+    }
+    if reading.errors.len() >= MOST_ERRORS {
+        // The rest was not read: nothing is known to be missing.
+        return Err(sorted(reading.errors));
     }
     let Some(mode) = mode(&reading) else {
         report_missing_analysis(&mut reading);
@@ -228,10 +232,12 @@ impl Checker<'_> {
             }
         }
         for (header, group) in &self.reading.grooves {
+            if self.errors.len() >= MOST_ERRORS {
+                return;
+            }
             for key in KEYS.iter().filter(|key| key.section() == "bearing.groove") {
                 if key.presence == Presence::Required
                     && !group.contains_key(key.path)
-                    && !self.errors.iter().any(|error| error.key == key.path)
                     && !self.was_misspelt(key)
                 {
                     self.errors.push(missing(&self.reading, key, Some(header)));
