@@ -14,6 +14,7 @@ mod read;
 pub mod schema;
 mod study;
 pub mod units;
+mod values;
 
 pub use error::{InputError, InputErrors, MessageKind, Place, render_all};
 pub use explain::{explain, list_keys};

@@ -2,8 +2,9 @@
 
 use super::{Checker, as_number, as_text, value_in};
 use crate::input::error::InputError;
-use crate::input::read::{Entries, MOST_ERRORS, Value};
+use crate::input::read::{Entries, MOST_ERRORS};
 use crate::input::study::FilmModel;
+use crate::input::values::Value;
 use sommerfeld_film::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
 use std::f64::consts::PI;

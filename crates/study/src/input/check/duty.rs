@@ -3,11 +3,11 @@
 use super::Checker;
 use crate::input::files::{TABLE_CAP, read_text};
 use crate::input::load_file::{CycleSettings, read_load_table};
-use crate::input::read::Value;
 use crate::input::schema::Mode;
 use crate::input::study::{
     BearingCase, CycleDuty, DimensionlessCase, Duty, SteadyLoad, Subject, TiltCondition,
 };
+use crate::input::values::Value;
 use sommerfeld_film::{Bearing, JournalState};
 use std::path::Path;
 

@@ -5,11 +5,12 @@ mod duty;
 
 use super::error::{InputError, InputErrors};
 use super::keys::KEYS;
-use super::read::{Entries, Entry, MOST_ERRORS, Reading, Value, default_value};
+use super::read::{Entries, Entry, MOST_ERRORS, Reading};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
     Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
+use super::values::{Value, default_value};
 use std::ops::Range;
 use std::path::Path;
 
