@@ -11,10 +11,12 @@
 //! about the mid-plane centre of the shell, on the journal.
 
 pub mod bearing;
+pub mod closed_form;
 pub mod force;
 pub mod journal_state;
 
 pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
 pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
     FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,
