@@ -340,8 +340,8 @@ fn a_turned_frame_turns_the_answer_in_all_quadrants() {
                 let other = film.linearise(&moved, Step::Steady, &CONDITIONS).unwrap();
                 let expected = turned(answer.reaction.film_force, angle);
                 let size = expected[0].hypot(expected[1]);
-                for row in 0..2 {
-                    let error = (other.reaction.film_force[row] - expected[row]).abs() / size;
+                for (force, expected) in other.reaction.film_force.iter().zip(expected) {
+                    let error = (force - expected).abs() / size;
                     assert!(error < 1e-8, "{name} at {moved:?}: {error:e}");
                 }
                 let other_peak = film.summary().peak_film_pressure;
