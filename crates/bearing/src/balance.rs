@@ -36,6 +36,12 @@ pub(crate) fn add(a: Coordinates, factor: f64, b: Coordinates) -> Coordinates {
     [0, 1, 2, 3].map(|i| a[i] + factor * b[i])
 }
 
+/// Size of a displacement, m; tilts count by what they move at `arm` (m) from the mid-plane.
+pub(crate) fn length(displacement: Coordinates, arm: f64) -> f64 {
+    let [x, y, tilt_x, tilt_y] = displacement;
+    x.hypot(y).hypot(arm * tilt_x.hypot(tilt_y))
+}
+
 /// The state with other coordinates and rates.
 pub(crate) fn with_motion(
     frame: &JournalState,
@@ -189,6 +195,8 @@ pub(crate) struct Balanced {
     pub residual: f64,
     /// One row per film update.
     pub table: Vec<IterationRow>,
+    /// Film updates asked for, refused ones included.
+    pub film_updates: usize,
     /// How it ended.
     pub outcome: Outcome,
 }
@@ -232,12 +240,6 @@ impl Balance {
         Some([x, y, end_x / self.arm, end_y / self.arm])
     }
 
-    /// Size of a displacement, m.
-    pub(crate) fn length(&self, displacement: Coordinates) -> f64 {
-        let [x, y, tilt_x, tilt_y] = displacement;
-        x.hypot(y).hypot(self.arm * tilt_x.hypot(tilt_y))
-    }
-
     /// Largest share (1, 1/2, 1/4, ...) of a displacement that keeps the smallest gap above
     /// `(1 - gap_loss)` of what it is at `from`.
     pub(crate) fn allowed_share(
@@ -279,6 +281,7 @@ impl Balance {
         for _ in 0..limits.iterations {
             let state = self.state(newton.position);
             let answer = film.linearise(&state, self.motion.step(), conditions);
+            newton.film_updates += 1;
             let linearised = match answer {
                 Ok(linearised) => linearised,
                 Err(FilmError::Contact { .. } | FilmError::NotFinite { .. }) => {
@@ -306,8 +309,9 @@ impl Balance {
                 break;
             };
             let gap = film.minimum_gap(&state);
-            let length = self.length(step) / gap.abs();
-            let done = linearised.settled && size <= limits.residual && length <= limits.step;
+            let relative_step = length(step, self.arm) / gap.abs();
+            let done =
+                linearised.settled && size <= limits.residual && relative_step <= limits.step;
             let taken = if done {
                 f64::from(u8::from(limits.takes_last_step))
             } else {
@@ -315,7 +319,7 @@ impl Balance {
             };
             newton.table.push(IterationRow {
                 residual: size,
-                step: length,
+                step: relative_step,
                 taken,
                 minimum_gap: gap,
                 settled: linearised.settled,
@@ -359,6 +363,7 @@ impl Balance {
             linearised,
             residual,
             table: newton.table,
+            film_updates: newton.film_updates,
             outcome: Outcome::Converged,
         }
     }
@@ -374,6 +379,7 @@ struct Newton {
     /// Why the last trial was refused.
     cause: Outcome,
     table: Vec<IterationRow>,
+    film_updates: usize,
     start: JournalState,
 }
 
@@ -386,6 +392,7 @@ impl Newton {
             best: None,
             cause: Outcome::NotConverged,
             table: Vec::new(),
+            film_updates: 0,
             start: balance.state(start),
         }
     }
@@ -453,6 +460,7 @@ impl Newton {
             linearised,
             residual,
             table: self.table,
+            film_updates: self.film_updates + 1,
             outcome: self.cause,
         })
     }

@@ -72,6 +72,8 @@ pub struct Equilibrium {
     pub residual: f64,
     /// Newton iterations, and each of them.
     pub table: Vec<IterationRow>,
+    /// Film updates of all attempts and the probe.
+    pub film_updates: usize,
     /// How it ended; `NoSolution` also where surfaces at rest or in counter-rotation carry nothing.
     pub outcome: Outcome,
 }
@@ -147,6 +149,7 @@ pub fn find_equilibrium(
         tangent: found.linearised.tangent,
         residual: found.residual,
         table: found.table,
+        film_updates: found.film_updates + 1,
         outcome: found.outcome,
     })
 }
@@ -261,6 +264,7 @@ impl Search<'_> {
         position[2] = start[2];
         position[3] = start[3];
         let mut last = first;
+        let mut film_updates = last.film_updates;
         for step in 0..SETTLING_STEPS {
             let mut balance = self.balance;
             balance.motion = Motion::Moving {
@@ -276,6 +280,7 @@ impl Search<'_> {
                 ..self.limits
             };
             let moved = balance.find(film, self.conditions, position, &limits)?;
+            film_updates += moved.film_updates;
             if moved.outcome == Outcome::Converged {
                 position = coordinates(&moved.state);
                 duration *= 2.0;
@@ -286,6 +291,8 @@ impl Search<'_> {
                 last = self
                     .balance
                     .find(film, self.conditions, position, &self.limits)?;
+                film_updates += last.film_updates;
+                last.film_updates = film_updates;
                 if last.outcome == Outcome::Converged || duration * speed > 1e6 {
                     return Ok(last);
                 }
@@ -306,6 +313,7 @@ impl Search<'_> {
             tangent: Tangent::default(),
             residual: f64::INFINITY,
             table: Vec::new(),
+            film_updates: 1,
             outcome,
         }
     }
