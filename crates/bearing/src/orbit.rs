@@ -18,7 +18,7 @@ use crate::time_step::{Moving, Stepper, Trial};
 use crate::{CyclePoint, JournalOrbit, LoadCycle};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::{
-    Bearing, Conditions, FilmError, FilmForce, JournalState, Linearised, Outcome, Step,
+    Bearing, Conditions, FilmError, FilmForce, FilmHistory, JournalState, Linearised, Outcome, Step,
 };
 use std::ops::ControlFlow;
 
@@ -70,10 +70,11 @@ impl Default for OrbitSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum OrbitStart {
-    /// At rest in the equilibrium of the first row; at half eccentricity in the direction of the
-    /// load if there is none.
+    /// At rest in the equilibrium of the first row with the film content that belongs to it; at half
+    /// eccentricity in the direction of the load, with a full film, if there is none.
     Equilibrium,
-    /// At a given state: position and tilt, and the rates of a journal with mass.
+    /// At a given state (position and tilt, and the rates of a journal with mass) with the film
+    /// content that the film remembers.
     At(JournalState),
 }
 
@@ -216,8 +217,7 @@ impl<'a> Run<'a> {
 
     /// Start state, its rate and the first point.
     fn start(&mut self, observer: &mut Observer<'_>) -> Result<Option<Outcome>, FilmError> {
-        let history = self.film.history();
-        let state = self.start_state()?;
+        let (state, history) = self.start_state()?;
         self.moving.position = coordinates(&state);
         if self.stepper.mass > 0.0 {
             let ([x, y], [tilt_x, tilt_y]) = (state.velocity, state.tilt_rate);
@@ -244,17 +244,20 @@ impl<'a> Run<'a> {
         Ok(stopped)
     }
 
-    fn start_state(&mut self) -> Result<JournalState, FilmError> {
+    /// First state, and the film content that it starts from.
+    fn start_state(&mut self) -> Result<(JournalState, FilmHistory), FilmError> {
         let first = self.stepper.table.first_angle();
         let frame = self.stepper.table.frame(first);
         if let OrbitStart::At(state) = self.settings.start {
             let motion = with_motion(&frame, coordinates(&state), [0.0; 4]);
-            return Ok(JournalState {
+            let state = JournalState {
                 velocity: state.velocity,
                 tilt_rate: state.tilt_rate,
                 ..motion
-            });
+            };
+            return Ok((state, self.film.history()));
         }
+        self.film.restore(&FilmHistory::default());
         let point = self.stepper.table.at(first);
         let request = EquilibriumRequest {
             load: point.load,
@@ -269,14 +272,16 @@ impl<'a> Run<'a> {
         let found = find_equilibrium(self.film, self.bearing, &request, self.stepper.conditions)?;
         self.stepper.film_solves += found.film_updates;
         if found.outcome == Outcome::Converged {
-            return Ok(found.state);
+            self.film.accept_step();
+            return Ok((found.state, self.film.history()));
         }
         let load = point.load[0].hypot(point.load[1]).max(f64::MIN_POSITIVE);
         let half = 0.5 * self.bearing.radial_clearance / load;
-        Ok(JournalState {
+        let state = JournalState {
             position: point.load.map(|component| half * component),
             ..frame
-        })
+        };
+        Ok((state, FilmHistory::default()))
     }
 
     /// One cycle; an outcome if the run ends within it.

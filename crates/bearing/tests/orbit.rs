@@ -9,8 +9,8 @@ use sommerfeld_bearing::{
 };
 use sommerfeld_film::closed_form::short;
 use sommerfeld_film::{
-    Bearing, Capabilities, Conditions, FilmError, FilmForce, FilmSummary, JournalState, Linearised,
-    MobilityFilm, Outcome, ShortBearingFilm, Step,
+    Bearing, Capabilities, Conditions, FilmError, FilmForce, FilmHistory, FilmSummary,
+    JournalState, Linearised, MobilityFilm, Outcome, ShortBearingFilm, Step,
 };
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -109,13 +109,13 @@ fn flores_cycle_of_bookers_mobility() {
 #[test]
 fn plain_big_end_of_a_diesel_engine() {
     let speed = 2000.0 * PI / 30.0;
-    let points = table("plain-big-end/loads.csv")
+    let points = table("../examples/02-big-end-diesel/loads.csv")
         .iter()
         .map(|row| LoadPoint {
             crank_angle: row[0].to_radians(),
-            load: [-row[1], -row[2]],
+            load: [row[1], row[2]],
             moment: [0.0; 2],
-            journal_speed: speed + row[3],
+            journal_speed: row[3],
             shell_speed: 0.0,
         })
         .collect();
@@ -384,6 +384,7 @@ impl FilmForce for RememberingFilm {
         conditions: &Conditions<'_>,
     ) -> Result<Linearised, FilmError> {
         let Step::Implicit { duration } = step else {
+            self.present = state.position;
             return self.film.linearise(state, step, conditions);
         };
         let mut moved = *state;
@@ -421,6 +422,17 @@ impl FilmForce for RememberingFilm {
 
     fn reject_step(&mut self) {
         self.present = self.accepted.unwrap_or([f64::NAN; 2]);
+    }
+
+    fn history(&self) -> FilmHistory {
+        FilmHistory {
+            content: self.accepted.map(Vec::from).unwrap_or_default(),
+        }
+    }
+
+    fn restore(&mut self, history: &FilmHistory) {
+        self.accepted = <[f64; 2]>::try_from(history.content.as_slice()).ok();
+        self.reject_step();
     }
 }
 

@@ -148,6 +148,19 @@ pub struct Linearised {
     pub outcome: Outcome,
 }
 
+impl Linearised {
+    /// The answer of a film that is not there.
+    #[must_use]
+    pub fn without_film(outcome: Outcome) -> Self {
+        Self {
+            reaction: Reaction::default(),
+            tangent: Tangent::default(),
+            settled: true,
+            outcome,
+        }
+    }
+}
+
 /// What film and contact put on the journal, shell frame, moments about the mid-plane shell centre.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reaction {

@@ -11,9 +11,18 @@
 //! about the mid-plane centre of the shell, on the journal.
 
 pub mod bearing;
+pub mod cavitation;
 pub mod closed_form;
 pub mod force;
+pub mod frame;
+pub mod gap;
+pub mod grid;
+pub mod integrals;
 pub mod journal_state;
+pub mod linear;
+pub mod reynolds;
+pub mod solver;
+pub mod supply;
 
 pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
 pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
@@ -21,4 +30,6 @@ pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
     FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,
 };
+pub use grid::Grid;
 pub use journal_state::JournalState;
+pub use solver::FilmSolver;

@@ -92,7 +92,7 @@ fn infinitely_long_bearing() {
 
 #[test]
 fn short_bearing() {
-    for row in rows("short-bearing") {
+    for row in rows("short-bearing-ocvirk") {
         let eps = number(&row[0]);
         let [along, across] = short::ocvirk_force(eps);
         let what = format!("Ocvirk at {eps}");
@@ -135,7 +135,7 @@ fn short_bearing_film_answers_wedge_and_squeeze() {
     let psi = bearing.relative_clearance();
     let square = (bearing.width / bearing.diameter).powi(2);
     let scale = VISCOSITY * bearing.diameter * bearing.width / (4.0 * psi * psi) * square;
-    for row in rows("short-bearing") {
+    for row in rows("short-bearing-ocvirk") {
         let eps = number(&row[0]);
         let mut state = JournalState {
             position: [eps * bearing.radial_clearance, 0.0],

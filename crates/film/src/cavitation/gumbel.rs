@@ -1,0 +1,56 @@
+//! Half Sommerfeld: the full film is solved once and pressures below cavitation pressure are cut
+//! afterwards (Guembel 1914). Nothing is conserved where the cut is made.
+
+use super::{CavitationModel, FilmSet, RupturedRow, assemble_balance};
+use crate::linear::RingMatrix;
+use crate::reynolds::{Cell, Operator};
+
+/// The closure after Guembel.
+#[derive(Debug, Clone, Copy)]
+pub struct Gumbel;
+
+impl CavitationModel for Gumbel {
+    fn conserves_mass(&self) -> bool {
+        false
+    }
+
+    fn assemble(
+        &self,
+        operator: &Operator,
+        set: &FilmSet,
+        matrix: &mut RingMatrix,
+        rhs: &mut [f64],
+    ) {
+        assemble_balance(operator, set, RupturedRow::Known, matrix, rhs);
+    }
+
+    fn fields(
+        &self,
+        _: &FilmSet,
+        solution: &[f64],
+        pressure: &mut [f64],
+        film_fraction: &mut [f64],
+    ) {
+        for ((p, theta), x) in pressure.iter_mut().zip(film_fraction).zip(solution) {
+            *p = x.max(0.0);
+            *theta = 1.0;
+        }
+    }
+
+    fn equation_pressure<'a>(&self, solution: &'a [f64], _pressure: &'a [f64]) -> &'a [f64] {
+        solution
+    }
+
+    fn update_set(
+        &self,
+        operator: &Operator,
+        pressure: &[f64],
+        _film_fraction: &[f64],
+        _excess: &[f64],
+        _tolerance: f64,
+        set: &mut FilmSet,
+    ) -> usize {
+        debug_assert!(set.cells.iter().all(|c| *c != Cell::Ruptured));
+        set.update_ends(operator, pressure)
+    }
+}

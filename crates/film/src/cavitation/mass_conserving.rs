@@ -1,0 +1,76 @@
+//! Jakobsson, Floberg (1957) and Olsson (1965): `p >= p_cav`, `0 <= theta <= 1`,
+//! `(p - p_cav)(1 - theta) = 0`, with theta transported and stored, so that oil is conserved in
+//! every cell, at rupture and where the film forms again.
+//!
+//! The unknown of a full cell is its pressure, that of a ruptured cell its film fraction. Column by
+//! column the matrix is diagonally dominant, whatever the set.
+
+use super::{CavitationModel, FilmSet, RupturedRow, assemble_balance};
+use crate::linear::RingMatrix;
+use crate::reynolds::{Cell, Operator};
+
+/// The mass-conserving closure.
+#[derive(Debug, Clone, Copy)]
+pub struct MassConserving;
+
+impl CavitationModel for MassConserving {
+    fn conserves_mass(&self) -> bool {
+        true
+    }
+
+    fn assemble(
+        &self,
+        operator: &Operator,
+        set: &FilmSet,
+        matrix: &mut RingMatrix,
+        rhs: &mut [f64],
+    ) {
+        assemble_balance(operator, set, RupturedRow::FilmFraction, matrix, rhs);
+    }
+
+    fn fields(
+        &self,
+        set: &FilmSet,
+        solution: &[f64],
+        pressure: &mut [f64],
+        film_fraction: &mut [f64],
+    ) {
+        for (k, x) in solution.iter().enumerate() {
+            (pressure[k], film_fraction[k]) = match set.cells[k] {
+                Cell::Full | Cell::Fed => (*x, 1.0),
+                Cell::Ruptured => (0.0, *x),
+            };
+        }
+    }
+
+    /// A full cell with negative pressure ruptures, if it can then drain: a closing gap that holds
+    /// more than leaves it stays full. A ruptured cell with more than a full film fills.
+    fn update_set(
+        &self,
+        operator: &Operator,
+        pressure: &[f64],
+        film_fraction: &[f64],
+        _excess: &[f64],
+        _tolerance: f64,
+        set: &mut FilmSet,
+    ) -> usize {
+        let mut moved = set.update_ends(operator, pressure);
+        for (k, cell) in set.cells.iter_mut().enumerate() {
+            let next = match *cell {
+                Cell::Full if pressure[k] < 0.0 && can_drain(operator, k) => Cell::Ruptured,
+                Cell::Ruptured if film_fraction[k] > 1.0 || !can_drain(operator, k) => Cell::Full,
+                unchanged => unchanged,
+            };
+            moved += usize::from(next != *cell);
+            *cell = next;
+        }
+        moved
+    }
+}
+
+/// Whether a film fraction has anything to balance it: transport out of the cell, or storage.
+fn can_drain(operator: &Operator, cell: usize) -> bool {
+    let west = operator.transport[cell];
+    let east = operator.transport[cell + operator.n_axial];
+    (-west).max(0.0) + east.max(0.0) + operator.storage[cell] > 0.0
+}

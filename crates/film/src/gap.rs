@@ -1,0 +1,171 @@
+//! How thick is the film, and how does it change?
+//!
+//! ```text
+//! h(angle, z) = c - (x + ty z) cos(angle) - (y - tx z) sin(angle)
+//! ```
+//! with the journal position `(x, y)` and tilt `(tx, ty)`; c is the radial clearance. All here is
+//! relative: `H = h / c`, positions over c, `zeta = z / R`, tilts times R / c.
+//!
+//! H lives where the discrete equation needs it: at faces (conductance and transport), and as the
+//! exact mean over each cell (storage and squeeze). The means make the squeeze source of the film
+//! equal to the weights of its force, so that work and torque balances hold to round-off.
+
+use crate::grid::Grid;
+
+/// Relative gap on a grid, with what a step (groove edge, Rayleigh step) needs kept apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gap {
+    /// H that carries the transport, at faces around, `(i, j)` at `i * n_axial + j`, `i` up to and
+    /// including `n_around`.
+    pub around_transport: Vec<f64>,
+    /// H^3 that conducts, at the same faces.
+    pub around_cubed: Vec<f64>,
+    /// H at faces along the axis, `(i, j)` at `i * (n_axial + 1) + j`.
+    pub axial: Vec<f64>,
+    /// Mean H over each cell.
+    pub mean: Vec<f64>,
+    /// Mean rate dH/dt over each cell, 1/s.
+    pub rate: Vec<f64>,
+}
+
+impl Gap {
+    /// Gap of the right size for `grid`, closed everywhere.
+    #[must_use]
+    pub fn for_grid(grid: &Grid) -> Self {
+        let (n, m) = (grid.n_around(), grid.n_axial());
+        Self {
+            around_transport: vec![0.0; (n + 1) * m],
+            around_cubed: vec![0.0; (n + 1) * m],
+            axial: vec![0.0; n * (m + 1)],
+            mean: vec![0.0; n * m],
+            rate: vec![0.0; n * m],
+        }
+    }
+
+    /// Gap of a planar slider, uniform along the axis: `profile(x, side)` is H just before
+    /// (`side < 0`) or just behind (`side > 0`) the place `x`, so that steps may lie on faces;
+    /// `rate(x)` is dH/dt.
+    ///
+    /// At a step the two half cells conduct in series, and continuity of flow and pressure at the
+    /// step leaves `(H1^-2 + H2^-2)/(H1^-3 + H2^-3)` for the transport.
+    #[must_use]
+    pub fn from_profile(
+        grid: &Grid,
+        profile: impl Fn(f64, f64) -> f64,
+        rate: impl Fn(f64) -> f64,
+    ) -> Self {
+        let (n, m) = (grid.n_around(), grid.n_axial());
+        let mut gap = Self::for_grid(grid);
+        for i in 0..=n {
+            let x = grid.around_faces[i];
+            // Beyond the ends of the slider there is nothing to be in series with.
+            let before = profile(x, if i == 0 { 1.0 } else { -1.0 });
+            let behind = profile(x, if i == n { -1.0 } else { 1.0 });
+            let resistance = before.powi(-3) + behind.powi(-3);
+            for j in 0..m {
+                gap.around_transport[i * m + j] = (before.powi(-2) + behind.powi(-2)) / resistance;
+                gap.around_cubed[i * m + j] = 2.0 / resistance;
+            }
+        }
+        for i in 0..n {
+            let (x, half) = (grid.around[i], 0.5 * grid.around_widths[i]);
+            let middle = profile(x, 1.0);
+            // Simpson's rule inside the cell, one-sided at its faces.
+            let mean = (profile(x - half, 1.0) + 4.0 * middle + profile(x + half, -1.0)) / 6.0;
+            for j in 0..m {
+                gap.mean[i * m + j] = mean;
+                gap.rate[i * m + j] = rate(x);
+            }
+            for j in 0..=m {
+                gap.axial[i * (m + 1) + j] = middle;
+            }
+        }
+        gap
+    }
+}
+
+/// A quantity `a cos(angle) + b sin(angle)` whose amplitudes vary linearly along the axis: the gap
+/// of a plain bore beyond the clearance, its rate, and every derivative of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Waviness {
+    /// Relative displacement of the centre towards +X and +Y in the mid-plane.
+    pub centre: [f64; 2],
+    /// Change of the same per unit of zeta.
+    pub slope: [f64; 2],
+}
+
+impl Waviness {
+    /// Of a journal at `position` with `tilt`, both relative (over c; times R/c), or of their rates.
+    #[must_use]
+    pub fn of(position: [f64; 2], tilt: [f64; 2]) -> Self {
+        Self {
+            centre: position,
+            slope: [tilt[1], -tilt[0]],
+        }
+    }
+
+    /// The amplitudes at `zeta`.
+    #[must_use]
+    pub fn at(&self, zeta: f64) -> [f64; 2] {
+        [
+            self.centre[0] + self.slope[0] * zeta,
+            self.centre[1] + self.slope[1] * zeta,
+        ]
+    }
+}
+
+/// The trigonometry of a grid around the bearing: made once, used by every gap, tangent and
+/// integral.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AngleTables {
+    /// cos and sin at faces around.
+    pub faces: Vec<[f64; 2]>,
+    /// cos and sin at cell centres.
+    pub centres: Vec<[f64; 2]>,
+    /// Exact mean of cos and sin over each cell.
+    pub means: Vec<[f64; 2]>,
+}
+
+impl AngleTables {
+    /// Tables for `grid`.
+    #[must_use]
+    pub fn new(grid: &Grid) -> Self {
+        let trig = |a: &f64| [a.cos(), a.sin()];
+        let means = grid.around_faces.windows(2).map(|f| {
+            let width = f[1] - f[0];
+            [
+                (f[1].sin() - f[0].sin()) / width,
+                (f[0].cos() - f[1].cos()) / width,
+            ]
+        });
+        Self {
+            faces: grid.around_faces.iter().map(trig).collect(),
+            centres: grid.around.iter().map(trig).collect(),
+            means: means.collect(),
+        }
+    }
+
+    /// Fills `gap` for a plain bore with the journal at `position` moving at `rate`.
+    pub fn fill_gap(&self, grid: &Grid, position: &Waviness, rate: &Waviness, gap: &mut Gap) {
+        let (n, m) = (grid.n_around(), grid.n_axial());
+        let thickness = |[x, y]: [f64; 2], [cos, sin]: [f64; 2]| 1.0 - x * cos - y * sin;
+        for i in 0..=n {
+            for j in 0..m {
+                let h = thickness(position.at(grid.axial[j]), self.faces[i]);
+                gap.around_transport[i * m + j] = h;
+                gap.around_cubed[i * m + j] = h * h * h;
+            }
+        }
+        for i in 0..n {
+            for j in 0..m {
+                gap.mean[i * m + j] = thickness(position.at(grid.axial[j]), self.means[i]);
+                let [vx, vy] = rate.at(grid.axial[j]);
+                gap.rate[i * m + j] = -vx * self.means[i][0] - vy * self.means[i][1];
+            }
+            for j in 0..=m {
+                gap.axial[i * (m + 1) + j] =
+                    thickness(position.at(grid.axial_faces[j]), self.centres[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Where the unknowns live: cells around the circumference and along the axis.
+//!
+//! Pressure and film fraction live at cell centres, gaps at cell faces. Around, cells are counted
+//! by the angle; along the axis by `zeta = z / R`, so that both directions share one length, the
+//! bore radius. A planar slider uses its own length in place of the radius.
+//! Cell `(i, j)`, `i` around and `j` along the axis, is stored at `i * n_axial + j`.
+
+use crate::bearing::{Bearing, Carrier, FeedShape};
+use std::f64::consts::{PI, TAU};
+
+/// Orthogonal grid of cells with given faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grid {
+    /// Faces around, rad (or x/L), ascending; `n_around + 1` of them.
+    pub around_faces: Vec<f64>,
+    /// Faces along the axis, z/R, ascending; `n_axial + 1` of them.
+    pub axial_faces: Vec<f64>,
+    /// Cell centres around, rad.
+    pub around: Vec<f64>,
+    /// Cell centres along the axis, z/R.
+    pub axial: Vec<f64>,
+    /// Cell lengths around, rad.
+    pub around_widths: Vec<f64>,
+    /// Cell lengths along the axis, z/R.
+    pub axial_widths: Vec<f64>,
+}
+
+impl Grid {
+    /// Grid with the given ascending faces, each direction at least one cell.
+    #[must_use]
+    pub fn from_faces(around_faces: Vec<f64>, axial_faces: Vec<f64>) -> Self {
+        let centres = |faces: &[f64]| faces.windows(2).map(|f| 0.5 * (f[0] + f[1])).collect();
+        let widths = |faces: &[f64]| faces.windows(2).map(|f| f[1] - f[0]).collect();
+        Self {
+            around: centres(&around_faces),
+            axial: centres(&axial_faces),
+            around_widths: widths(&around_faces),
+            axial_widths: widths(&axial_faces),
+            around_faces,
+            axial_faces,
+        }
+    }
+
+    /// Grid fixed in the shell frame, from angle 0 to 2 pi, uniform but for its faces being moved
+    /// onto the edges of the grooves that the shell carries: an edge inside a cell would be a
+    /// first-order error.
+    #[must_use]
+    pub fn shell_fixed(bearing: &Bearing, n_around: usize, n_axial: usize) -> Self {
+        let radius = bearing.radius();
+        let half_width = 0.5 * bearing.width / radius;
+        let (mut around_edges, mut axial_edges) = (Vec::new(), Vec::new());
+        for feed in &bearing.feeds {
+            let centre = feed.position / radius;
+            let width = match feed.shape {
+                FeedShape::Rectangle { width, .. } | FeedShape::Circumferential { width } => width,
+                FeedShape::Hole { .. } => continue,
+            };
+            axial_edges.extend([centre - 0.5 * width / radius, centre + 0.5 * width / radius]);
+            if let (FeedShape::Rectangle { length, .. }, Carrier::Shell) =
+                (feed.shape, feed.carried_by)
+            {
+                let half = 0.5 * length / radius;
+                around_edges
+                    .extend([feed.angle - half, feed.angle + half].map(|a| a.rem_euclid(TAU)));
+            }
+        }
+        Self::from_faces(
+            faces_through(0.0, TAU, n_around, around_edges),
+            faces_through(-half_width, half_width, n_axial, axial_edges),
+        )
+    }
+
+    /// Grid for the frame of the line of centres, from the widest gap at angle -pi over the
+    /// narrowest at 0 to the widest at pi, graded towards the narrowest gap by the map
+    /// `angle = 2 atan(a tan(s/2))`, `a = sqrt((1-g)/(1+g))`: Sommerfeld's substitution with a
+    /// tempered relative eccentricity `g` (0: uniform).
+    #[must_use]
+    pub fn following(bearing: &Bearing, n_around: usize, n_axial: usize, grading: f64) -> Self {
+        let stretch = ((1.0 - grading) / (1.0 + grading)).sqrt();
+        let half_width = bearing.width / bearing.diameter;
+        let around = (0..=n_around)
+            .map(|i| {
+                let s = PI * (2.0 * i as f64 / n_around as f64 - 1.0);
+                if i == 0 || i == n_around {
+                    s // tan(pi/2) is not exact
+                } else {
+                    2.0 * (stretch * (0.5 * s).tan()).atan()
+                }
+            })
+            .collect();
+        Self::from_faces(around, uniform_faces(-half_width, half_width, n_axial))
+    }
+
+    /// Cells around.
+    #[must_use]
+    pub fn n_around(&self) -> usize {
+        self.around.len()
+    }
+
+    /// Cells along the axis.
+    #[must_use]
+    pub fn n_axial(&self) -> usize {
+        self.axial.len()
+    }
+
+    /// All cells.
+    #[must_use]
+    pub fn cells(&self) -> usize {
+        self.n_around() * self.n_axial()
+    }
+
+    /// Area of cell `(i, j)` over the square of the radius.
+    #[must_use]
+    pub fn area(&self, i: usize, j: usize) -> f64 {
+        self.around_widths[i] * self.axial_widths[j]
+    }
+
+    /// The grid with every second face left out, for nested starts; `None` where that leaves too
+    /// few cells to be of use.
+    #[must_use]
+    pub fn coarsened(&self) -> Option<Self> {
+        const FEWEST_AROUND: usize = 32;
+        if self.n_around() % 2 != 0 || self.n_around() / 2 < FEWEST_AROUND {
+            return None;
+        }
+        let every_second =
+            |faces: &[f64]| -> Vec<f64> { faces.iter().copied().step_by(2).collect() };
+        let axial = if self.n_axial() % 2 == 0 && self.n_axial() > 4 {
+            every_second(&self.axial_faces)
+        } else {
+            self.axial_faces.clone()
+        };
+        Some(Self::from_faces(every_second(&self.around_faces), axial))
+    }
+}
+
+fn uniform_faces(from: f64, to: f64, n: usize) -> Vec<f64> {
+    (0..=n)
+        .map(|i| from + (to - from) * i as f64 / n as f64)
+        .collect()
+}
+
+/// `n` cells between `from` and `to` with faces on all `edges` that lie inside: each stretch
+/// between edges gets its share of the cells, at least one, and is divided evenly.
+fn faces_through(from: f64, to: f64, n: usize, mut edges: Vec<f64>) -> Vec<f64> {
+    let near = 1e-9 * (to - from);
+    edges.retain(|e| *e > from + near && *e < to - near);
+    edges.extend([from, to]);
+    edges.sort_by(f64::total_cmp);
+    edges.dedup_by(|a, b| (*a - *b).abs() <= near);
+    let stretches: Vec<f64> = edges.windows(2).map(|e| e[1] - e[0]).collect();
+    let shares = share_cells(&stretches, n.max(stretches.len()));
+    let mut faces = vec![from];
+    for (stretch, &cells) in edges.windows(2).zip(&shares) {
+        faces.extend(uniform_faces(stretch[0], stretch[1], cells).drain(1..));
+    }
+    faces
+}
+
+/// Shares `n` cells among stretches in proportion to their lengths, at least one each: the next
+/// cell always goes to the stretch whose cells are the longest.
+fn share_cells(lengths: &[f64], n: usize) -> Vec<usize> {
+    let mut shares = vec![1; lengths.len()];
+    for _ in lengths.len()..n {
+        let longest = (0..lengths.len()).max_by(|&a, &b| {
+            (lengths[a] / shares[a] as f64).total_cmp(&(lengths[b] / shares[b] as f64))
+        });
+        if let Some(k) = longest {
+            shares[k] += 1;
+        }
+    }
+    shares
+}

@@ -1,0 +1,511 @@
+//! What the film does to the journal: forces, moments, torques, flows and power from the fields.
+//!
+//! ```text
+//! F = -int p n dA            M = int r x (-p n) dA          about the mid-plane shell centre
+//! M_f = R int ( eta U_s/h +- (h/2) dp/dx ) dA               + journal, - shell
+//! M_journal - M_shell = e x F + (tilt x M)_z                holds to round-off
+//! P = M_journal (w_J - w_S) - F v - M tilt_rate             v relative to the turning shell
+//! ```
+//! Pressure weights are exact cell integrals of cos and sin, and the pressure part of the torque is
+//! summed over faces: summation by parts then makes the torque identity exact on any grid.
+
+use crate::bearing::{Bearing, FilmShear};
+use crate::cavitation::FilmSet;
+use crate::force::{Extreme, FilmSummary, Reaction, Tangent};
+use crate::gap::{AngleTables, Gap, Waviness};
+use crate::grid::Grid;
+use crate::journal_state::JournalState;
+use crate::reynolds::{Axial, Cell, Operator, Storage};
+
+/// Units that turn the film's relative quantities into SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    /// Pressure, Pa per 1/s: 12 eta R^2 / c^2.
+    pub pressure: f64,
+    /// Area, m2: R^2.
+    pub area: f64,
+    /// Flow, m3/s per 1/s: c R^2.
+    pub flow: f64,
+    /// Radius R, m.
+    pub radius: f64,
+    /// Radial clearance c, m.
+    pub clearance: f64,
+    /// Viscosity eta, Pa s.
+    pub viscosity: f64,
+}
+
+impl Units {
+    /// For a bearing with oil of the given viscosity (Pa s).
+    #[must_use]
+    pub fn of(bearing: &Bearing, viscosity: f64) -> Self {
+        let (radius, clearance) = (bearing.radius(), bearing.radial_clearance);
+        Self {
+            pressure: 12.0 * viscosity * (radius / clearance).powi(2),
+            area: radius * radius,
+            flow: clearance * radius * radius,
+            radius,
+            clearance,
+            viscosity,
+        }
+    }
+}
+
+/// One solved film, as the integrals see it.
+#[derive(Debug, Clone, Copy)]
+pub struct SolvedFilm<'a> {
+    /// The bearing.
+    pub bearing: &'a Bearing,
+    /// Its grid.
+    pub grid: &'a Grid,
+    /// Trigonometry of the grid.
+    pub angles: &'a AngleTables,
+    /// The gap.
+    pub gap: &'a Gap,
+    /// The balance.
+    pub operator: &'a Operator,
+    /// The set of the solution.
+    pub set: &'a FilmSet,
+    /// P - P_cav per cell, 1/s.
+    pub pressure: &'a [f64],
+    /// Film fraction per cell.
+    pub film_fraction: &'a [f64],
+    /// Entering beyond leaving per cell, 1/s.
+    pub excess: &'a [f64],
+    /// Units.
+    pub units: Units,
+}
+
+impl SolvedFilm<'_> {
+    /// Force, moment and torques on the journal, in the frame of the grid.
+    #[must_use]
+    pub fn reaction(&self, state: &JournalState) -> Reaction {
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let (mut force, mut moment) = ([0.0; 2], [0.0; 2]);
+        for i in 0..n {
+            let [cos, sin] = self.angles.means[i];
+            let (mut sum, mut lever) = (0.0, 0.0);
+            for j in 0..m {
+                let load = self.pressure[i * m + j] * self.grid.axial_widths[j];
+                sum += load;
+                lever += load * self.grid.axial[j];
+            }
+            let width = self.grid.around_widths[i];
+            force[0] -= cos * sum * width;
+            force[1] -= sin * sum * width;
+            moment[0] += sin * lever * width;
+            moment[1] -= cos * lever * width;
+        }
+        let force_unit = self.units.pressure * self.units.area;
+        let moment_unit = force_unit * self.units.radius;
+        let (shear, drag) = (self.shear_torque(state), self.pressure_torque());
+        Reaction {
+            film_force: force.map(|f| f * force_unit),
+            film_moment: moment.map(|f| f * moment_unit),
+            friction_torque_journal: shear + drag,
+            friction_torque_shell: shear - drag,
+            ..Reaction::default()
+        }
+    }
+
+    /// `R int eta U_s/h dA` over the lands, N m.
+    fn shear_torque(&self, state: &JournalState) -> f64 {
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let mut sum = 0.0;
+        for i in 0..n {
+            for j in 0..m {
+                let k = i * m + j;
+                // A groove is deep: its shear is negligible beside that of the lands.
+                if self.set.cells[k] == Cell::Fed {
+                    continue;
+                }
+                let share = match self.bearing.film_shear {
+                    FilmShear::FullWidth => 1.0,
+                    FilmShear::FilmFraction => self.film_fraction[k],
+                };
+                sum += share * self.grid.area(i, j) / self.gap.mean[k];
+            }
+        }
+        let sliding = state.journal_speed - state.shell_speed;
+        let units = &self.units;
+        units.viscosity * sliding * units.radius.powi(2) * units.area / units.clearance * sum
+    }
+
+    /// `R int (h/2) dp/dx dA`, N m.
+    fn pressure_torque(&self) -> f64 {
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let mut sum = 0.0;
+        // A periodic ring meets its first face twice: as face 0 and as face n.
+        let last = if self.operator.west(0, 0).is_some() {
+            n
+        } else {
+            n + 1
+        };
+        for i in 0..last {
+            for j in 0..m {
+                let before = if i == 0 {
+                    self.operator.west(0, j)
+                } else {
+                    Some((i - 1) * m + j)
+                };
+                let behind = if i == n { None } else { Some(i * m + j) };
+                let (p_before, _) =
+                    self.operator
+                        .beside(before, 0, self.pressure, self.film_fraction);
+                let (p_behind, _) =
+                    self.operator
+                        .beside(behind, 1, self.pressure, self.film_fraction);
+                let height = self.gap.around_transport[i * m + j];
+                sum += height * (p_behind - p_before) * self.grid.axial_widths[j];
+            }
+        }
+        0.5 * sum * self.units.clearance * self.units.pressure * self.units.area
+    }
+
+    /// Everything a designer asks of the film.
+    #[must_use]
+    pub fn summary(&self, state: &JournalState, reaction: &Reaction) -> FilmSummary {
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let mut summary = FilmSummary {
+            minimum_film_thickness: minimum_film(self.bearing, state),
+            peak_film_pressure: self.peak_pressure(),
+            ..FilmSummary::default()
+        };
+        let (mut land, mut full) = (0.0, 0.0);
+        for i in 0..n {
+            summary.side_flow[0] -= self.operator.flow_axial(i, 0, self.pressure);
+            summary.side_flow[1] += self.operator.flow_axial(i, m, self.pressure);
+            for j in 0..m {
+                let k = i * m + j;
+                summary.storage_rate +=
+                    self.operator.storage[k] * self.film_fraction[k] - self.operator.stored[k];
+                if self.set.cells[k] == Cell::Fed {
+                    summary.feed_flow -= self.excess[k];
+                } else {
+                    land += self.grid.area(i, j);
+                    let carries = self.set.cells[k] == Cell::Full && self.pressure[k] > 0.0;
+                    full += if carries { self.grid.area(i, j) } else { 0.0 };
+                }
+            }
+        }
+        summary.feed_flow += self.inlet_line_flow();
+        summary.full_film_share = full / land;
+        let unit = self.units.flow;
+        summary.side_flow = summary.side_flow.map(|q| q * unit);
+        summary.feed_flow *= unit;
+        summary.storage_rate *= unit;
+        let side = summary.side_flow[0] + summary.side_flow[1];
+        let largest = [side, summary.feed_flow, summary.storage_rate]
+            .into_iter()
+            .fold(0.0_f64, |a, b| a.max(b.abs()));
+        if largest > 0.0 {
+            summary.mass_balance_relative =
+                (summary.feed_flow - side - summary.storage_rate).abs() / largest;
+        }
+        self.add_power(state, reaction, &mut summary);
+        summary
+    }
+
+    /// Flow into the film from a line that holds a pressure around: before the first cell and
+    /// behind the last, 1/s.
+    fn inlet_line_flow(&self) -> f64 {
+        let n = self.grid.n_around();
+        if self.operator.west(0, 0).is_some() {
+            return 0.0;
+        }
+        (0..self.grid.n_axial())
+            .map(|j| {
+                self.operator
+                    .flow_around(0, j, self.pressure, self.film_fraction)
+                    - self
+                        .operator
+                        .flow_around(n, j, self.pressure, self.film_fraction)
+            })
+            .sum()
+    }
+
+    /// Power by friction and by squeeze, W, both relative to the shell.
+    fn add_power(&self, state: &JournalState, reaction: &Reaction, summary: &mut FilmSummary) {
+        let turning = state.shell_speed;
+        let relative =
+            |rate: [f64; 2], of: [f64; 2]| [rate[0] + turning * of[1], rate[1] - turning * of[0]];
+        let velocity = relative(state.velocity, state.position);
+        let tilt_rate = relative(state.tilt_rate, state.tilt);
+        let (force, moment) = (reaction.film_force, reaction.film_moment);
+        summary.friction_power =
+            reaction.friction_torque_journal * (state.journal_speed - state.shell_speed);
+        summary.squeeze_power = -(force[0] * velocity[0] + force[1] * velocity[1])
+            - (moment[0] * tilt_rate[0] + moment[1] * tilt_rate[1]);
+    }
+
+    /// Peak of the parabolas through the highest cell and its neighbours, Pa.
+    fn peak_pressure(&self) -> Extreme {
+        let m = self.grid.n_axial();
+        let highest = (0..self.pressure.len())
+            .max_by(|&a, &b| self.pressure[a].total_cmp(&self.pressure[b]))
+            .unwrap_or(0);
+        let (i, j) = (highest / m, highest % m);
+        let top = self.pressure[highest];
+        let around = match (self.operator.west(i, j), self.operator.east(i, j)) {
+            (Some(west), Some(east)) => parabola_peak(
+                [self.pressure[west], top, self.pressure[east]],
+                self.distances_around(i),
+            ),
+            _ => (0.0, 0.0),
+        };
+        let along = if j == 0 || j + 1 == m {
+            (0.0, 0.0)
+        } else {
+            let z = &self.grid.axial;
+            parabola_peak(
+                [self.pressure[highest - 1], top, self.pressure[highest + 1]],
+                [z[j] - z[j - 1], z[j + 1] - z[j]],
+            )
+        };
+        Extreme {
+            value: (top + around.1 + along.1) * self.units.pressure
+                + self.bearing.cavitation_pressure,
+            angle: self.grid.around[i] + around.0,
+            axial: (self.grid.axial[j] + along.0) * self.units.radius,
+        }
+    }
+
+    fn distances_around(&self, i: usize) -> [f64; 2] {
+        let widths = &self.grid.around_widths;
+        let n = widths.len();
+        let half = |a: usize, b: usize| 0.5 * (widths[a] + widths[b]);
+        [half((i + n - 1) % n, i), half(i, (i + 1) % n)]
+    }
+
+    /// Derivatives of force and moment for this set, by the adjoints of the four outputs:
+    /// `dF/dq = -y . dR/dq` with the balance R and `M^T y = dF/dP`. `adjoints[output]` per cell,
+    /// already zero where the equation is not a balance.
+    #[must_use]
+    pub fn tangent(&self, adjoints: &[Vec<f64>; 4], storage: Storage<'_>) -> Tangent {
+        let mut by_position = [[0.0; 4]; 4];
+        let mut by_rate = [[0.0; 4]; 4];
+        self.sensitivity_around(adjoints, &mut by_position);
+        self.sensitivity_axial(adjoints, &mut by_position);
+        match storage {
+            Storage::Rate => self.sensitivity_storage(adjoints, 1.0, &mut by_rate),
+            Storage::Step { duration, .. } => {
+                self.sensitivity_storage(adjoints, 1.0 / duration, &mut by_position);
+            }
+        }
+        let force = self.units.pressure * self.units.area;
+        let outputs = [
+            force,
+            force,
+            force * self.units.radius,
+            force * self.units.radius,
+        ];
+        let per_length = 1.0 / self.units.clearance;
+        let per_tilt = self.units.radius / self.units.clearance;
+        let inputs = [per_length, per_length, per_tilt, per_tilt];
+        for (row, output) in outputs.iter().enumerate() {
+            for (column, input) in inputs.iter().enumerate() {
+                by_position[row][column] *= output * input;
+                by_rate[row][column] *= output * input;
+            }
+        }
+        Tangent {
+            by_position,
+            by_rate,
+        }
+    }
+
+    fn sensitivity_around(&self, adjoints: &[Vec<f64>; 4], by: &mut [[f64; 4]; 4]) {
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let last = if self.operator.west(0, 0).is_some() {
+            n
+        } else {
+            n + 1
+        };
+        for i in 0..last {
+            for j in 0..m {
+                let face = i * m + j;
+                let before = if i == 0 {
+                    self.operator.west(0, j)
+                } else {
+                    Some(face - m)
+                };
+                let behind = if i == n { None } else { Some(face) };
+                let (p_before, theta_before) =
+                    self.operator
+                        .beside(before, 0, self.pressure, self.film_fraction);
+                let (p_behind, theta_behind) =
+                    self.operator
+                        .beside(behind, 1, self.pressure, self.film_fraction);
+                let transport = self.operator.transport[face];
+                let upstream = if transport > 0.0 {
+                    theta_before
+                } else {
+                    theta_behind
+                };
+                let conducted = 3.0 * self.operator.conductance_around[face];
+                let by_height = (conducted * (p_before - p_behind) + transport * upstream)
+                    / self.gap.around_transport[face];
+                let value = |y: &[f64], cell: Option<usize>| cell.map_or(0.0, |k| y[k]);
+                let drops = adjoints
+                    .each_ref()
+                    .map(|y| value(y, before) - value(y, behind));
+                accumulate(
+                    by,
+                    drops,
+                    by_height,
+                    self.angles.faces[i],
+                    self.grid.axial[j],
+                );
+            }
+        }
+    }
+
+    fn sensitivity_axial(&self, adjoints: &[Vec<f64>; 4], by: &mut [[f64; 4]; 4]) {
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        for i in 0..n {
+            for j in 0..=m {
+                let face = i * (m + 1) + j;
+                let by_height = 3.0 * self.set_flow_axial(i, j) / self.gap.axial[face];
+                let drops = adjoints.each_ref().map(|y| {
+                    let before = if j == 0 { 0.0 } else { y[i * m + j - 1] };
+                    let behind = if j == m { 0.0 } else { y[i * m + j] };
+                    before - behind
+                });
+                accumulate(
+                    by,
+                    drops,
+                    by_height,
+                    self.angles.centres[i],
+                    self.grid.axial_faces[j],
+                );
+            }
+        }
+    }
+
+    /// Flow along the axis as the equations of the set have it: an end against air is open or
+    /// closed by the set, not by the pressure.
+    fn set_flow_axial(&self, i: usize, j: usize) -> f64 {
+        let m = self.grid.n_axial();
+        if j != 0 && j != m {
+            return self.operator.flow_axial(i, j, self.pressure);
+        }
+        let outside = match self.operator.axial {
+            Axial::Closed => return 0.0,
+            Axial::Air(_) if !self.set.end_open[2 * i + usize::from(j == m)] => return 0.0,
+            Axial::Bath(p) | Axial::Air(p) => p,
+        };
+        let (inside, outward) = if j == 0 {
+            (i * m, -1.0)
+        } else {
+            (i * m + m - 1, 1.0)
+        };
+        let conductance = self.operator.conductance_axial[i * (m + 1) + j];
+        outward * conductance * (self.pressure[inside] - outside)
+    }
+
+    /// `per_time`: 1 for rates of change, 1/duration for steps.
+    fn sensitivity_storage(&self, adjoints: &[Vec<f64>; 4], per_time: f64, by: &mut [[f64; 4]; 4]) {
+        let m = self.grid.n_axial();
+        for i in 0..self.grid.n_around() {
+            for j in 0..m {
+                let k = i * m + j;
+                let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
+                let values = adjoints.each_ref().map(|y| y[k]);
+                accumulate(
+                    by,
+                    values,
+                    by_height,
+                    self.angles.means[i],
+                    self.grid.axial[j],
+                );
+            }
+        }
+    }
+
+    /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell.
+    pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Vec<f64>; 4]) {
+        let m = self.grid.n_axial();
+        for i in 0..self.grid.n_around() {
+            let [cos, sin] = self.angles.means[i];
+            for j in 0..m {
+                let k = i * m + j;
+                let unknown = self.set.cells[k] == Cell::Full && loaded(k);
+                let area = if unknown { self.grid.area(i, j) } else { 0.0 };
+                let lever = area * self.grid.axial[j];
+                weights[0][k] = -cos * area;
+                weights[1][k] = -sin * area;
+                weights[2][k] = sin * lever;
+                weights[3][k] = -cos * lever;
+            }
+        }
+    }
+}
+
+/// Adds the share of one face or cell to the derivatives with respect to the four motions, given
+/// the adjoint drop per output and the derivative of the flow by H there. H falls by
+/// `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`; the two signs cancel.
+fn accumulate(
+    by: &mut [[f64; 4]; 4],
+    drops: [f64; 4],
+    by_height: f64,
+    [cos, sin]: [f64; 2],
+    zeta: f64,
+) {
+    let columns = [cos, sin, -zeta * sin, zeta * cos].map(|c| c * by_height);
+    for (row, drop) in by.iter_mut().zip(drops) {
+        for (entry, column) in row.iter_mut().zip(columns) {
+            *entry += drop * column;
+        }
+    }
+}
+
+/// Offset and height above the middle one of the peak of the parabola through three values at the
+/// given distances.
+fn parabola_peak([before, middle, behind]: [f64; 3], [d_before, d_behind]: [f64; 2]) -> (f64, f64) {
+    let slope_before = (middle - before) / d_before;
+    let slope_behind = (behind - middle) / d_behind;
+    let curvature = (slope_behind - slope_before) / (d_before + d_behind);
+    if curvature >= 0.0 {
+        return (0.0, 0.0);
+    }
+    let slope = (slope_before * d_behind + slope_behind * d_before) / (d_before + d_behind);
+    let offset = (-0.5 * slope / curvature).clamp(-0.5 * d_before, 0.5 * d_behind);
+    (offset, offset * (slope + curvature * offset))
+}
+
+/// Smallest film of a plain bore, m, with its place: the journal axis is straight, so it lies at an
+/// edge, or anywhere along an aligned journal (the mid-plane is named).
+#[must_use]
+pub fn minimum_film(bearing: &Bearing, state: &JournalState) -> Extreme {
+    let at = |z: f64| {
+        let [x, y] = state.centre_at(z);
+        Extreme {
+            value: bearing.radial_clearance - x.hypot(y),
+            angle: y.atan2(x),
+            axial: z,
+        }
+    };
+    let half = 0.5 * bearing.width;
+    [at(-half), at(half)]
+        .into_iter()
+        .fold(at(0.0), |least, edge| {
+            if edge.value < least.value {
+                edge
+            } else {
+                least
+            }
+        })
+}
+
+/// Waviness of a state's position and of its motion, relative to the clearance.
+#[must_use]
+pub fn relative_motion(bearing: &Bearing, state: &JournalState) -> (Waviness, Waviness) {
+    let c = bearing.radial_clearance;
+    let tilt = bearing.radius() / c;
+    let relative = |centre: [f64; 2], turn: [f64; 2]| {
+        Waviness::of(centre.map(|v| v / c), turn.map(|v| v * tilt))
+    };
+    (
+        relative(state.position, state.tilt),
+        relative(state.velocity, state.tilt_rate),
+    )
+}

@@ -1,0 +1,5 @@
+//! Direct solution of the film's linear systems.
+
+pub mod ring;
+
+pub use ring::{RingFactor, RingMatrix};

@@ -1,0 +1,856 @@
+//! Direct solution on a ring of stations, each a short line of cells along the axis.
+//!
+//! The film's five-point equations, ordered station by station around the bearing, are block
+//! tridiagonal with diagonal couplings, plus the corner that closes the ring. Elimination walks the
+//! stations in the direction of flow from a cut; the station at the cut is the border of the
+//! system, and what couples it is carried along only where it is not zero.
+//!
+//! Every matrix here has non-negative column sums, a positive diagonal and no positive entry beside
+//! it (pressure columns conduct, film-fraction columns drain downstream), so that elimination
+//! without pivoting is stable. Film-fraction columns have no entry along the axis and none
+//! upstream: they make no fill, and a station costs only the square of its LOADED cells times all
+//! its cells. Dense station inverses are formed by Gauss-Jordan sweeps; the next station's matrix
+//! follows from them by scaling rows and columns alone, because its couplings are diagonal.
+
+/// Five-point matrix in row form: entry `west[k]` of row `k` multiplies the unknown of the cell
+/// before it around, and so on. Cells `(i, j)` at `i * n_axial + j`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RingMatrix {
+    /// Stations around.
+    pub n_around: usize,
+    /// Cells along the axis.
+    pub n_axial: usize,
+    /// The last station is followed by the first.
+    pub periodic: bool,
+    /// Diagonal.
+    pub centre: Vec<f64>,
+    /// Coefficient of the cell at `i - 1`.
+    pub west: Vec<f64>,
+    /// Coefficient of the cell at `i + 1`.
+    pub east: Vec<f64>,
+    /// Coefficient of the cell at `j - 1`.
+    pub south: Vec<f64>,
+    /// Coefficient of the cell at `j + 1`.
+    pub north: Vec<f64>,
+    /// Whether the column of a cell couples along the axis (a pressure); columns of film fractions
+    /// and of known values do not.
+    pub loaded: Vec<bool>,
+    /// Film fractions drain towards higher `i`.
+    pub flows_east: bool,
+}
+
+impl RingMatrix {
+    /// Zero matrix of the given shape.
+    #[must_use]
+    pub fn new(n_around: usize, n_axial: usize, periodic: bool) -> Self {
+        let zero = vec![0.0; n_around * n_axial];
+        Self {
+            n_around,
+            n_axial,
+            periodic,
+            centre: zero.clone(),
+            west: zero.clone(),
+            east: zero.clone(),
+            south: zero.clone(),
+            north: zero,
+            loaded: vec![true; n_around * n_axial],
+            flows_east: true,
+        }
+    }
+
+    /// `residual = rhs - matrix * x`; returns its largest absolute entry.
+    pub fn residual(&self, x: &[f64], rhs: &[f64], residual: &mut [f64]) -> f64 {
+        let (n, m) = (self.n_around, self.n_axial);
+        let mut largest = 0.0_f64;
+        for i in 0..n {
+            let before = if i == 0 { n - 1 } else { i - 1 } * m;
+            let behind = if i + 1 == n { 0 } else { i + 1 } * m;
+            for j in 0..m {
+                let k = i * m + j;
+                let mut product = self.centre[k] * x[k]
+                    + self.west[k] * x[before + j]
+                    + self.east[k] * x[behind + j];
+                if j > 0 {
+                    product += self.south[k] * x[k - 1];
+                }
+                if j + 1 < m {
+                    product += self.north[k] * x[k + 1];
+                }
+                residual[k] = rhs[k] - product;
+                largest = largest.max(residual[k].abs());
+            }
+        }
+        largest
+    }
+}
+
+/// Factors of a [`RingMatrix`], with all storage made once.
+#[derive(Debug, Clone)]
+pub struct RingFactor {
+    n_axial: usize,
+    /// Stations in the order of elimination; the border is not among them.
+    order: Vec<usize>,
+    border: Option<usize>,
+    /// `behind[k]`, `ahead[k]`: couplings of row k to the stations before and after in `order`.
+    behind: Vec<f64>,
+    ahead: Vec<f64>,
+    /// Loaded rows of each station: `rows[start[i]..start[i + 1]]`.
+    rows: Vec<usize>,
+    start: Vec<usize>,
+    /// Per station, all rows by loaded columns, at `i * m * m`.
+    inverse: Vec<f64>,
+    /// Inverse of the diagonal of rows that are not loaded.
+    inverse_diagonal: Vec<f64>,
+    /// Coupling of each station's rows to the border unknowns, `m` by `m`, at `i * m * m`.
+    to_border: Vec<f64>,
+    /// Coupling of the border rows to each station's unknowns.
+    from_border: Vec<f64>,
+    has_to_border: Vec<bool>,
+    has_from_border: Vec<bool>,
+    border_inverse: Vec<f64>,
+    /// Station matrix under elimination, and scratch of the same size.
+    block: Vec<f64>,
+    product: Vec<f64>,
+    line: Vec<f64>,
+    border_line: Vec<f64>,
+}
+
+impl RingFactor {
+    /// Storage for matrices of the shape of `matrix`.
+    #[must_use]
+    pub fn new(matrix: &RingMatrix) -> Self {
+        let (n, m) = (matrix.n_around, matrix.n_axial);
+        let border_size = if matrix.periodic { n * m * m } else { 0 };
+        Self {
+            n_axial: m,
+            order: Vec::with_capacity(n),
+            border: None,
+            behind: vec![0.0; n * m],
+            ahead: vec![0.0; n * m],
+            rows: Vec::with_capacity(n * m),
+            start: vec![0; n + 1],
+            inverse: vec![0.0; n * m * m],
+            inverse_diagonal: vec![0.0; n * m],
+            to_border: vec![0.0; border_size],
+            from_border: vec![0.0; border_size],
+            has_to_border: vec![false; n],
+            has_from_border: vec![false; n],
+            border_inverse: vec![0.0; m * m],
+            block: vec![0.0; m * m],
+            product: vec![0.0; m * m],
+            line: vec![0.0; m],
+            border_line: vec![0.0; m],
+        }
+    }
+
+    /// Eliminates `matrix`. Returns `false` where a pivot vanishes: the film is not determined.
+    pub fn factor(&mut self, matrix: &RingMatrix) -> bool {
+        self.collect_loaded_rows(matrix);
+        self.choose_order(matrix);
+        self.orient_couplings(matrix);
+        self.load_border_couplings(matrix);
+        let m = self.n_axial;
+        let Some(&first) = self.order.first() else {
+            return false;
+        };
+        self.load_station(matrix, first);
+        for position in 0..self.order.len() {
+            let station = self.order[position];
+            if !self.invert_station(station) {
+                return false;
+            }
+            let next = self.order.get(position + 1).copied();
+            self.eliminate_border(station, next);
+            if let Some(next) = next {
+                self.load_station(matrix, next);
+                self.pass_on(station, next);
+            }
+        }
+        if self.border.is_some() {
+            for row in self.border_inverse.chunks_exact(m).enumerate() {
+                debug_assert_eq!(row.1.len(), m);
+            }
+            return sweep(&mut self.border_inverse, m, m, |p| p);
+        }
+        true
+    }
+
+    /// Solves in place: `x` holds the right side and becomes the solution.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let m = self.n_axial;
+        let coupling = [&self.behind, &self.ahead];
+        if let Some(border) = self.border {
+            self.border_line
+                .copy_from_slice(&x[border * m..(border + 1) * m]);
+        }
+        for position in 0..self.order.len() {
+            let station = self.order[position];
+            let rows = station * m..(station + 1) * m;
+            apply_inverse(
+                &self.inverse[station * m * m..],
+                &self.inverse_diagonal[rows.clone()],
+                &self.rows[self.start[station]..self.start[station + 1]],
+                &x[rows],
+                &mut self.line,
+            );
+            if self.has_from_border[station] {
+                let block = &self.from_border[station * m * m..(station + 1) * m * m];
+                subtract_product(block, &self.line, &mut self.border_line);
+            }
+            if let Some(&next) = self.order.get(position + 1) {
+                for j in 0..m {
+                    x[next * m + j] -= coupling[0][next * m + j] * self.line[j];
+                }
+            }
+        }
+        if let Some(border) = self.border {
+            let solution = &mut x[border * m..(border + 1) * m];
+            solution.fill(0.0);
+            add_product(&self.border_inverse, &self.border_line, solution);
+            self.border_line.copy_from_slice(solution);
+        }
+        for position in (0..self.order.len()).rev() {
+            let station = self.order[position];
+            if let Some(&next) = self.order.get(position + 1) {
+                for j in 0..m {
+                    x[station * m + j] -= coupling[1][station * m + j] * x[next * m + j];
+                }
+            }
+            let rows = station * m..(station + 1) * m;
+            if self.has_to_border[station] {
+                let block = &self.to_border[station * m * m..(station + 1) * m * m];
+                subtract_product(block, &self.border_line, &mut x[rows.clone()]);
+            }
+            apply_inverse(
+                &self.inverse[station * m * m..],
+                &self.inverse_diagonal[rows.clone()],
+                &self.rows[self.start[station]..self.start[station + 1]],
+                &x[rows.clone()],
+                &mut self.line,
+            );
+            x[rows].copy_from_slice(&self.line);
+        }
+    }
+
+    /// Solves the transposed system in place: for adjoints.
+    pub fn solve_transposed(&mut self, x: &mut [f64]) {
+        let m = self.n_axial;
+        if let Some(border) = self.border {
+            self.border_line
+                .copy_from_slice(&x[border * m..(border + 1) * m]);
+        }
+        for position in 0..self.order.len() {
+            let station = self.order[position];
+            let rows = station * m..(station + 1) * m;
+            apply_inverse_transposed(
+                &self.inverse[station * m * m..],
+                &self.inverse_diagonal[rows.clone()],
+                &self.rows[self.start[station]..self.start[station + 1]],
+                &x[rows],
+                &mut self.line,
+            );
+            if self.has_to_border[station] {
+                let block = &self.to_border[station * m * m..(station + 1) * m * m];
+                subtract_product_transposed(block, &self.line, &mut self.border_line);
+            }
+            if let Some(&next) = self.order.get(position + 1) {
+                for j in 0..m {
+                    x[next * m + j] -= self.ahead[station * m + j] * self.line[j];
+                }
+            }
+        }
+        if let Some(border) = self.border {
+            let solution = &mut x[border * m..(border + 1) * m];
+            solution.fill(0.0);
+            subtract_product_transposed(&self.border_inverse, &self.border_line, solution);
+            for value in solution.iter_mut() {
+                *value = -*value;
+            }
+            self.border_line.copy_from_slice(solution);
+        }
+        for position in (0..self.order.len()).rev() {
+            let station = self.order[position];
+            if let Some(&next) = self.order.get(position + 1) {
+                for j in 0..m {
+                    x[station * m + j] -= self.behind[next * m + j] * x[next * m + j];
+                }
+            }
+            let rows = station * m..(station + 1) * m;
+            if self.has_from_border[station] {
+                let block = &self.from_border[station * m * m..(station + 1) * m * m];
+                subtract_product_transposed(block, &self.border_line, &mut x[rows.clone()]);
+            }
+            apply_inverse_transposed(
+                &self.inverse[station * m * m..],
+                &self.inverse_diagonal[rows.clone()],
+                &self.rows[self.start[station]..self.start[station + 1]],
+                &x[rows.clone()],
+                &mut self.line,
+            );
+            x[rows].copy_from_slice(&self.line);
+        }
+    }
+
+    fn collect_loaded_rows(&mut self, matrix: &RingMatrix) {
+        let m = self.n_axial;
+        self.rows.clear();
+        for i in 0..matrix.n_around {
+            self.start[i] = self.rows.len();
+            self.rows
+                .extend((0..m).filter(|j| matrix.loaded[i * m + j]));
+        }
+        self.start[matrix.n_around] = self.rows.len();
+    }
+
+    /// Walks with the flow. A ring is cut where the fewest couplings cross: at best between
+    /// ruptured or fed stations, where nothing need be carried around.
+    fn choose_order(&mut self, matrix: &RingMatrix) {
+        let (n, m) = (matrix.n_around, matrix.n_axial);
+        let step = |i: usize| {
+            if matrix.flows_east {
+                (i + 1) % n
+            } else {
+                (i + n - 1) % n
+            }
+        };
+        self.order.clear();
+        self.border = None;
+        if !matrix.periodic {
+            let first = if matrix.flows_east { 0 } else { n - 1 };
+            self.order.extend((0..n).scan(first, |i, _| {
+                let station = *i;
+                *i = step(station);
+                Some(station)
+            }));
+            return;
+        }
+        let (back, forth) = if matrix.flows_east {
+            (&matrix.west, &matrix.east)
+        } else {
+            (&matrix.east, &matrix.west)
+        };
+        let crossing = |i: usize| {
+            let (cut, next) = (i * m..(i + 1) * m, step(i) * m..(step(i) + 1) * m);
+            let forth = forth[cut].iter().filter(|v| **v != 0.0).count();
+            let back = back[next].iter().filter(|v| **v != 0.0).count();
+            2 * forth + back
+        };
+        let cut = (0..n).min_by_key(|&i| crossing(i)).unwrap_or(0);
+        self.border = Some(cut);
+        let mut station = step(cut);
+        while station != cut {
+            self.order.push(station);
+            station = step(station);
+        }
+    }
+
+    fn orient_couplings(&mut self, matrix: &RingMatrix) {
+        let (back, forth) = if matrix.flows_east {
+            (&matrix.west, &matrix.east)
+        } else {
+            (&matrix.east, &matrix.west)
+        };
+        self.behind.copy_from_slice(back);
+        self.ahead.copy_from_slice(forth);
+    }
+
+    /// Couplings between the border and its two neighbours, and the border's own block.
+    fn load_border_couplings(&mut self, matrix: &RingMatrix) {
+        let m = self.n_axial;
+        self.has_to_border.fill(false);
+        self.has_from_border.fill(false);
+        let (Some(border), Some(&first), Some(&last)) =
+            (self.border, self.order.first(), self.order.last())
+        else {
+            return;
+        };
+        load_block(matrix, border, &mut self.border_inverse);
+        for (station, to, from) in [
+            (first, &self.behind[first * m..], &self.ahead[border * m..]),
+            (last, &self.ahead[last * m..], &self.behind[border * m..]),
+        ] {
+            if to[..m].iter().any(|v| *v != 0.0) {
+                let block = &mut self.to_border[station * m * m..(station + 1) * m * m];
+                add_diagonal(block, &to[..m], &mut self.has_to_border[station]);
+            }
+            if from[..m].iter().any(|v| *v != 0.0) {
+                let block = &mut self.from_border[station * m * m..(station + 1) * m * m];
+                add_diagonal(block, &from[..m], &mut self.has_from_border[station]);
+            }
+        }
+    }
+
+    /// Fills `block` with the station's own matrix: all rows by its loaded columns.
+    fn load_station(&mut self, matrix: &RingMatrix, station: usize) {
+        let m = self.n_axial;
+        let columns = &self.rows[self.start[station]..self.start[station + 1]];
+        let width = columns.len();
+        self.block[..m * width].fill(0.0);
+        for (c, &j) in columns.iter().enumerate() {
+            self.block[j * width + c] = matrix.centre[station * m + j];
+            if j > 0 {
+                self.block[(j - 1) * width + c] = matrix.north[station * m + j - 1];
+            }
+            if j + 1 < m {
+                self.block[(j + 1) * width + c] = matrix.south[station * m + j + 1];
+            }
+        }
+        for j in 0..m {
+            let k = station * m + j;
+            self.inverse_diagonal[k] = if matrix.loaded[k] {
+                0.0
+            } else {
+                matrix.centre[k]
+            };
+        }
+    }
+
+    /// Inverts the station matrix in `block` into `inverse`.
+    fn invert_station(&mut self, station: usize) -> bool {
+        let m = self.n_axial;
+        let columns = &self.rows[self.start[station]..self.start[station + 1]];
+        let width = columns.len();
+        if !sweep(&mut self.block[..m * width], m, width, |p| columns[p]) {
+            return false;
+        }
+        let inverse = &mut self.inverse[station * m * m..station * m * m + m * width];
+        inverse.copy_from_slice(&self.block[..m * width]);
+        for j in 0..m {
+            let diagonal = &mut self.inverse_diagonal[station * m + j];
+            // Loaded rows hold 0 here and have no diagonal part of their own.
+            if columns.binary_search(&j).is_err() {
+                if *diagonal == 0.0 || !diagonal.is_finite() {
+                    return false;
+                }
+                *diagonal = 1.0 / *diagonal;
+                for value in &mut inverse[j * width..(j + 1) * width] {
+                    *value *= *diagonal;
+                }
+            }
+        }
+        true
+    }
+
+    /// Subtracts what the eliminated `station` leaves in the matrix of `next`:
+    /// `behind * inverse * ahead`, a scaling of rows and columns.
+    fn pass_on(&mut self, station: usize, next: usize) {
+        let m = self.n_axial;
+        let own = &self.rows[self.start[station]..self.start[station + 1]];
+        let columns = &self.rows[self.start[next]..self.start[next + 1]];
+        let (own_width, width) = (own.len(), columns.len());
+        let inverse = &self.inverse[station * m * m..station * m * m + m * own_width];
+        let ahead = &self.ahead[station * m..(station + 1) * m];
+        // Column j of `inverse` exists for loaded j; other columns are diagonal.
+        for row in 0..m {
+            let factor = self.behind[next * m + row];
+            if factor == 0.0 {
+                continue;
+            }
+            let mut own_column = 0;
+            for (c, &j) in columns.iter().enumerate() {
+                while own_column < own_width && own[own_column] < j {
+                    own_column += 1;
+                }
+                let entry = if own_column < own_width && own[own_column] == j {
+                    inverse[row * own_width + own_column]
+                } else if row == j {
+                    self.inverse_diagonal[station * m + j]
+                } else {
+                    continue;
+                };
+                self.block[row * width + c] -= factor * entry * ahead[j];
+            }
+        }
+    }
+
+    /// Carries the couplings to and from the border past the eliminated `station`.
+    fn eliminate_border(&mut self, station: usize, next: Option<usize>) {
+        let m = self.n_axial;
+        let size = m * m;
+        let here = station * size..(station + 1) * size;
+        let columns = &self.rows[self.start[station]..self.start[station + 1]];
+        let inverse = &self.inverse[here.start..here.start + m * columns.len()];
+        let diagonal = &self.inverse_diagonal[station * m..(station + 1) * m];
+        if self.has_to_border[station] {
+            // product = inverse * to_border
+            multiply_left(
+                inverse,
+                diagonal,
+                columns,
+                &self.to_border[here.clone()],
+                &mut self.product,
+            );
+            if self.has_from_border[station] {
+                let from = &self.from_border[here.clone()];
+                subtract_matrix_product(from, &self.product, m, &mut self.border_inverse);
+            }
+            if let Some(next) = next {
+                let behind = &self.behind[next * m..(next + 1) * m];
+                if behind.iter().any(|v| *v != 0.0) {
+                    let target = &mut self.to_border[next * size..(next + 1) * size];
+                    if !self.has_to_border[next] {
+                        target.fill(0.0);
+                        self.has_to_border[next] = true;
+                    }
+                    for row in 0..m {
+                        for column in 0..m {
+                            target[row * m + column] -=
+                                behind[row] * self.product[row * m + column];
+                        }
+                    }
+                }
+            }
+        }
+        if let (true, Some(next)) = (self.has_from_border[station], next) {
+            let ahead = &self.ahead[station * m..(station + 1) * m];
+            if ahead.iter().any(|v| *v != 0.0) {
+                // product = from_border * inverse
+                multiply_right(
+                    &self.from_border[here],
+                    inverse,
+                    diagonal,
+                    columns,
+                    &mut self.product,
+                );
+                let target = &mut self.from_border[next * size..(next + 1) * size];
+                if !self.has_from_border[next] {
+                    target.fill(0.0);
+                    self.has_from_border[next] = true;
+                }
+                for row in 0..m {
+                    for column in 0..m {
+                        target[row * m + column] -= self.product[row * m + column] * ahead[column];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The full block of one station, all rows by all columns.
+fn load_block(matrix: &RingMatrix, station: usize, block: &mut [f64]) {
+    let m = matrix.n_axial;
+    block.fill(0.0);
+    for j in 0..m {
+        let k = station * m + j;
+        block[j * m + j] = matrix.centre[k];
+        if j > 0 {
+            block[j * m + j - 1] = matrix.south[k];
+        }
+        if j + 1 < m {
+            block[j * m + j + 1] = matrix.north[k];
+        }
+    }
+}
+
+fn add_diagonal(block: &mut [f64], diagonal: &[f64], in_use: &mut bool) {
+    let m = diagonal.len();
+    if !*in_use {
+        block.fill(0.0);
+        *in_use = true;
+    }
+    for j in 0..m {
+        block[j * m + j] += diagonal[j];
+    }
+}
+
+/// Gauss-Jordan sweeps on `rows` x `width`: afterwards the pivot rows hold the inverse of the pivot
+/// block P, the other rows `-C P^-1` with C their own entries. `pivot_row(p)` is the row of pivot
+/// column `p`. Returns `false` at a vanishing pivot.
+fn sweep(block: &mut [f64], rows: usize, width: usize, pivot_row: impl Fn(usize) -> usize) -> bool {
+    for p in 0..width {
+        let row = pivot_row(p);
+        let pivot = block[row * width + p];
+        if pivot == 0.0 || !pivot.is_finite() {
+            return false;
+        }
+        let inverse = 1.0 / pivot;
+        let (above, rest) = block.split_at_mut(row * width);
+        let (pivots, below) = rest.split_at_mut(width);
+        for value in pivots.iter_mut() {
+            *value *= inverse;
+        }
+        pivots[p] = inverse;
+        for line in above
+            .chunks_exact_mut(width)
+            .chain(below.chunks_exact_mut(width))
+        {
+            let factor = line[p];
+            if factor == 0.0 {
+                continue;
+            }
+            line[p] = 0.0;
+            for (value, pivot) in line.iter_mut().zip(pivots.iter()) {
+                *value -= factor * pivot;
+            }
+        }
+        debug_assert!(row < rows);
+    }
+    true
+}
+
+/// `y = D^-1 x` of one station.
+fn apply_inverse(inverse: &[f64], diagonal: &[f64], columns: &[usize], x: &[f64], y: &mut [f64]) {
+    let width = columns.len();
+    for (row, value) in y.iter_mut().enumerate() {
+        let line = &inverse[row * width..(row + 1) * width];
+        *value = diagonal[row] * x[row] + gathered_dot(line, columns, x);
+    }
+}
+
+fn gathered_dot(line: &[f64], columns: &[usize], x: &[f64]) -> f64 {
+    if columns.len() == x.len() {
+        return dot(line, x);
+    }
+    line.iter().zip(columns).map(|(a, &j)| a * x[j]).sum()
+}
+
+/// Four partial sums, so that the additions do not wait for one another.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; 4];
+    let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
+    let rest: f64 = a4
+        .remainder()
+        .iter()
+        .zip(b4.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    for (x, y) in a4.zip(b4) {
+        for lane in 0..4 {
+            sums[lane] += x[lane] * y[lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// `y = D^-T x` of one station.
+fn apply_inverse_transposed(
+    inverse: &[f64],
+    diagonal: &[f64],
+    columns: &[usize],
+    x: &[f64],
+    y: &mut [f64],
+) {
+    let width = columns.len();
+    for ((value, d), x) in y.iter_mut().zip(diagonal).zip(x) {
+        *value = d * x;
+    }
+    for (row, factor) in x.iter().enumerate() {
+        let line = &inverse[row * width..(row + 1) * width];
+        for (entry, &j) in line.iter().zip(columns) {
+            y[j] += factor * entry;
+        }
+    }
+}
+
+/// `y += A x` for a square row-major A.
+fn add_product(a: &[f64], x: &[f64], y: &mut [f64]) {
+    for (line, value) in a.chunks_exact(x.len()).zip(y) {
+        *value += dot(line, x);
+    }
+}
+
+fn subtract_product(a: &[f64], x: &[f64], y: &mut [f64]) {
+    for (line, value) in a.chunks_exact(x.len()).zip(y) {
+        *value -= dot(line, x);
+    }
+}
+
+fn subtract_product_transposed(a: &[f64], x: &[f64], y: &mut [f64]) {
+    for (line, factor) in a.chunks_exact(y.len()).zip(x) {
+        for (value, entry) in y.iter_mut().zip(line) {
+            *value -= factor * entry;
+        }
+    }
+}
+
+/// `product = D^-1 right` for a square `right`.
+fn multiply_left(
+    inverse: &[f64],
+    diagonal: &[f64],
+    columns: &[usize],
+    right: &[f64],
+    product: &mut [f64],
+) {
+    let m = diagonal.len();
+    let width = columns.len();
+    for row in 0..m {
+        let target = &mut product[row * m..(row + 1) * m];
+        for (value, entry) in target.iter_mut().zip(&right[row * m..(row + 1) * m]) {
+            *value = diagonal[row] * entry;
+        }
+        for (factor, &j) in inverse[row * width..(row + 1) * width].iter().zip(columns) {
+            add_scaled(target, *factor, &right[j * m..(j + 1) * m]);
+        }
+    }
+}
+
+/// `product = left D^-1` for a square `left`.
+fn multiply_right(
+    left: &[f64],
+    inverse: &[f64],
+    diagonal: &[f64],
+    columns: &[usize],
+    product: &mut [f64],
+) {
+    let m = diagonal.len();
+    let width = columns.len();
+    for row in 0..m {
+        let source = &left[row * m..(row + 1) * m];
+        let target = &mut product[row * m..(row + 1) * m];
+        for j in 0..m {
+            target[j] = source[j] * diagonal[j];
+        }
+        for (inner, factor) in source.iter().enumerate() {
+            if *factor != 0.0 {
+                let line = &inverse[inner * width..(inner + 1) * width];
+                for (entry, &j) in line.iter().zip(columns) {
+                    target[j] += factor * entry;
+                }
+            }
+        }
+    }
+}
+
+/// `target -= left right`, all square.
+fn subtract_matrix_product(left: &[f64], right: &[f64], m: usize, target: &mut [f64]) {
+    for row in 0..m {
+        for inner in 0..m {
+            let factor = -left[row * m + inner];
+            add_scaled(
+                &mut target[row * m..(row + 1) * m],
+                factor,
+                &right[inner * m..(inner + 1) * m],
+            );
+        }
+    }
+}
+
+fn add_scaled(target: &mut [f64], factor: f64, source: &[f64]) {
+    if factor != 0.0 {
+        for (value, entry) in target.iter_mut().zip(source) {
+            *value += factor * entry;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Random film-like matrix: pressure columns conduct, the others drain with the flow.
+    fn sample(
+        n: usize,
+        m: usize,
+        periodic: bool,
+        flows_east: bool,
+        seed: u64,
+        share: f64,
+    ) -> RingMatrix {
+        let mut state = seed;
+        let mut random = move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut a = RingMatrix::new(n, m, periodic);
+        a.flows_east = flows_east;
+        for k in 0..n * m {
+            a.loaded[k] = random() >= share;
+        }
+        for i in 0..n {
+            for j in 0..m {
+                let k = i * m + j;
+                let (e, w) = ((i + 1) % n * m + j, (i + n - 1) % n * m + j);
+                let ends = |into_east: bool| periodic || if into_east { i + 1 < n } else { i > 0 };
+                if a.loaded[k] {
+                    let mut total = 0.1 * random();
+                    for (open, target, side) in [
+                        (ends(true), e, 0),
+                        (ends(false), w, 1),
+                        (j + 1 < m, k + 1, 2),
+                        (j > 0, k.wrapping_sub(1), 3),
+                    ] {
+                        if open {
+                            let c = random();
+                            total += c;
+                            match side {
+                                0 => a.west[target] -= c,
+                                1 => a.east[target] -= c,
+                                2 => a.south[target] -= c,
+                                _ => a.north[target] -= c,
+                            }
+                        }
+                    }
+                    a.centre[k] = total;
+                } else {
+                    let c = 0.1 + random();
+                    a.centre[k] = c + 0.01;
+                    if flows_east && ends(true) {
+                        a.west[e] -= c;
+                    }
+                    if !flows_east && ends(false) {
+                        a.east[w] -= c;
+                    }
+                }
+            }
+        }
+        a
+    }
+
+    fn transposed_residual(a: &RingMatrix, y: &[f64], w: &[f64]) -> f64 {
+        let (n, m) = (a.n_around, a.n_axial);
+        let mut product = vec![0.0; n * m];
+        for i in 0..n {
+            for j in 0..m {
+                let k = i * m + j;
+                product[k] += a.centre[k] * y[k];
+                product[(i + n - 1) % n * m + j] += a.west[k] * y[k];
+                product[(i + 1) % n * m + j] += a.east[k] * y[k];
+                if j > 0 {
+                    product[k - 1] += a.south[k] * y[k];
+                }
+                if j + 1 < m {
+                    product[k + 1] += a.north[k] * y[k];
+                }
+            }
+        }
+        product
+            .iter()
+            .zip(w)
+            .map(|(p, w)| (p - w).abs())
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn solves_and_solves_transposed() {
+        for periodic in [false, true] {
+            for flows_east in [false, true] {
+                for (seed, share) in [(1, 0.0), (2, 0.3), (3, 0.6), (4, 0.95), (5, 1.0)] {
+                    let a = sample(9, 5, periodic, flows_east, seed, share);
+                    let mut factor = RingFactor::new(&a);
+                    assert!(factor.factor(&a));
+                    let rhs: Vec<f64> = (0..45).map(|k| ((k * 7919) % 13) as f64 - 6.0).collect();
+                    let mut x = rhs.clone();
+                    factor.solve(&mut x);
+                    let mut r = vec![0.0; 45];
+                    let scale = x.iter().fold(1.0, |s: f64, v| s.max(v.abs()));
+                    let residual = a.residual(&x, &rhs, &mut r);
+                    assert!(
+                        residual < 1e-11 * scale,
+                        "{periodic} {flows_east} {share}: {residual}"
+                    );
+                    let mut y = rhs.clone();
+                    factor.solve_transposed(&mut y);
+                    let scale = y.iter().fold(1.0, |s: f64, v| s.max(v.abs()));
+                    let residual = transposed_residual(&a, &y, &rhs);
+                    assert!(
+                        residual < 1e-11 * scale,
+                        "transposed {periodic} {flows_east} {share}: {residual}"
+                    );
+                }
+            }
+        }
+    }
+}

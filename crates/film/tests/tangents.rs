@@ -1,0 +1,131 @@
+//! Tangents by fixed-set adjoints against central differences of the settled reaction.
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
+mod common;
+
+use common::{big_end, conditions, feed_hole, oil};
+use sommerfeld_film::{
+    Bearing, Cavitation, FilmForce, FilmSolver, Inlet, JournalState, Reaction, Step,
+};
+
+fn state(c: f64) -> JournalState {
+    JournalState {
+        position: [0.55 * c, 0.35 * c],
+        tilt: [0.15 * c / 0.015, -0.1 * c / 0.015],
+        velocity: [40.0 * c, -25.0 * c],
+        tilt_rate: [30.0 * c / 0.015, 20.0 * c / 0.015],
+        journal_speed: 230.0,
+        shell_speed: -11.0,
+        journal_angle: 1.0,
+        shell_angle: 0.0,
+    }
+}
+
+fn values(r: &Reaction) -> [f64; 4] {
+    let (f, m) = (r.force(), r.moment());
+    [f[0], f[1], m[0], m[1]]
+}
+
+fn nudge(state: &mut JournalState, rates: bool, column: usize, by: f64) {
+    let (lin, tilt) = if rates {
+        (&mut state.velocity, &mut state.tilt_rate)
+    } else {
+        (&mut state.position, &mut state.tilt)
+    };
+    if column < 2 {
+        lin[column] += by;
+    } else {
+        tilt[column - 2] += by;
+    }
+}
+
+/// Worst deviation over each row's largest entry, by position and by rate.
+fn worst_deviation(bearing: &Bearing, step: Step) -> f64 {
+    let c = bearing.radial_clearance;
+    let centre = state(c);
+    let mut film = FilmSolver::new(bearing, &oil(), [64, 16]).unwrap();
+    if let Step::Implicit { duration } = step {
+        // From where the motion came: no cell is left exactly at the corner of its two conditions.
+        let back =
+            |at: [f64; 2], rate: [f64; 2]| [at[0] - duration * rate[0], at[1] - duration * rate[1]];
+        let before = JournalState {
+            position: back(centre.position, centre.velocity),
+            tilt: back(centre.tilt, centre.tilt_rate),
+            ..centre
+        };
+        assert!(
+            film.react(&before, Step::Steady, &conditions())
+                .unwrap()
+                .settled
+        );
+        film.accept_step();
+    }
+    let tangent = film.react(&centre, step, &conditions()).unwrap().tangent;
+    let mut worst = 0.0_f64;
+    for rates in [false, true] {
+        let analytic = if rates {
+            tangent.by_rate
+        } else {
+            tangent.by_position
+        };
+        for column in 0..4 {
+            // Small against the cells, so that the set mostly stays as it is.
+            let unit = if column < 2 { c } else { c / 0.015 } * if rates { 200.0 } else { 1.0 };
+            let by = 1e-6 * unit;
+            let mut react = |sign: f64| {
+                let mut moved = centre;
+                nudge(&mut moved, rates, column, sign * by);
+                values(&film.react(&moved, step, &conditions()).unwrap().reaction)
+            };
+            let (plus, minus) = (react(1.0), react(-1.0));
+            for row in 0..4 {
+                let difference = (plus[row] - minus[row]) / (2.0 * by);
+                let scale = analytic[row].iter().enumerate().fold(0.0_f64, |s, (k, v)| {
+                    s.max(v.abs() * if k < 2 { 1.0 } else { 1.0 / 0.015 })
+                });
+                let lever = if column < 2 { 1.0 } else { 1.0 / 0.015 };
+                let deviation = (analytic[row][column] - difference).abs() * lever;
+                worst = worst.max(deviation / scale.max(1e-300));
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn tangents_equal_differences_for_every_closure_and_step() {
+    let steps = [Step::Steady, Step::Implicit { duration: 1e-4 }];
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
+        for step in steps {
+            let bearing = Bearing {
+                cavitation,
+                feeds: vec![feed_hole()],
+                ..big_end()
+            };
+            let deviation = worst_deviation(&bearing, step);
+            assert!(deviation < 2e-5, "{cavitation:?} {step:?}: {deviation:e}");
+        }
+    }
+}
+
+#[test]
+fn tangents_follow_the_line_of_centres() {
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
+        let inlet = Inlet::MaxFilmLine { pressure: 2e5 };
+        let bearing = Bearing {
+            cavitation,
+            inlet,
+            ..big_end()
+        };
+        let deviation = worst_deviation(&bearing, Step::Steady);
+        assert!(deviation < 2e-5, "{cavitation:?}: {deviation:e}");
+    }
+}
