@@ -30,15 +30,19 @@ pub struct OrbitSettings {
     /// Largest error of one time step over the smallest gap, films without history (second order).
     /// Default 1e-4.
     pub error_tolerance: f64,
-    /// The same for films with history (first order). Default 1e-2.
+    /// The same for films with history (first order). Default 2e-2.
     pub history_error_tolerance: f64,
+    /// For the sake of that tolerance the crank step is halved at most this often. Cells of a film on
+    /// a grid that fill or rupture make the rate of a light journal jump; still shorter steps would
+    /// follow single cells and not the motion. Default 3.
+    pub history_halvings: u32,
     /// Newton stops before a step smaller than this, over the smallest gap. Default 1e-5.
     pub newton_tolerance: f64,
     /// Film updates for one implicit stage. Default 20.
     pub iteration_limit: usize,
     /// Largest share of the smallest gap that one Newton step may take. Default 0.7.
     pub largest_gap_loss: f64,
-    /// The output crank step is halved at most this often. Default 10.
+    /// The output crank step is halved at most this often where Newton fails. Default 10.
     pub largest_halvings: u32,
     /// The orbit is closed when two cycles differ by less than this share of the radial clearance.
     /// Default 1e-4.
@@ -54,7 +58,8 @@ impl Default for OrbitSettings {
         Self {
             crank_step: std::f64::consts::PI / 180.0,
             error_tolerance: 1e-4,
-            history_error_tolerance: 1e-2,
+            history_error_tolerance: 2e-2,
+            history_halvings: 3,
             newton_tolerance: 1e-5,
             iteration_limit: 20,
             largest_gap_loss: 0.7,
@@ -319,13 +324,14 @@ impl<'a> Run<'a> {
     /// Substeps through one output crank step. The last accepted one is left to the caller to accept
     /// in the film, after the film has been looked at.
     fn output_step(&mut self, from: f64) -> Result<(JournalState, Linearised, Outcome), FilmError> {
-        let tolerance = if self.stepper.has_history {
-            self.settings.history_error_tolerance
-        } else {
-            self.settings.error_tolerance
-        };
+        let settings = self.settings;
         // The error of a step of order p falls by 2^(p+1) with its length: room for twice the length.
-        let room = if self.stepper.has_history { 0.2 } else { 0.1 };
+        let (tolerance, finest, room) = if self.stepper.has_history {
+            let tolerance = settings.history_error_tolerance;
+            (tolerance, settings.history_halvings, 0.2)
+        } else {
+            (settings.error_tolerance, settings.largest_halvings, 0.1)
+        };
         let mut failures = 0;
         let mut outcome = Outcome::Converged;
         self.substeps.begin();
@@ -334,8 +340,8 @@ impl<'a> Run<'a> {
             let angle = self.substeps.length() * self.crank_step;
             let trial = self.stepper.try_step(self.film, &self.moving, angle)?;
             let solved = trial.outcome == Outcome::Converged;
-            let good = solved && trial.error <= tolerance;
-            if !good && self.substeps.halve() {
+            let accurate = trial.error <= tolerance || self.substeps.level() >= finest;
+            if !(solved && accurate) && self.substeps.halve() {
                 self.film.reject_step();
                 continue;
             }

@@ -42,6 +42,11 @@ impl Substeps {
         1.0 / (1_u64 << self.level) as f64
     }
 
+    /// How often the output crank step is halved at present.
+    pub(crate) fn level(&self) -> u32 {
+        self.level
+    }
+
     /// Halves the next substep; false at the finest level.
     pub(crate) fn halve(&mut self) -> bool {
         if self.level >= self.finest {
