@@ -34,10 +34,12 @@ pub struct OrbitSettings {
     pub history_error_tolerance: f64,
     /// For the sake of that tolerance the crank step is halved at most this often. Cells of a film on
     /// a grid that fill or rupture make the rate of a light journal jump; still shorter steps would
-    /// follow single cells and not the motion. Default 3.
+    /// follow single cells and not the motion. Default 2.
     pub history_halvings: u32,
     /// Newton stops before a step smaller than this, over the smallest gap. Default 1e-5.
     pub newton_tolerance: f64,
+    /// The same for films with history, whose time steps are coarser. Default 1e-4.
+    pub history_newton_tolerance: f64,
     /// Film updates for one implicit stage. Default 20.
     pub iteration_limit: usize,
     /// Largest share of the smallest gap that one Newton step may take. Default 0.7.
@@ -59,8 +61,9 @@ impl Default for OrbitSettings {
             crank_step: std::f64::consts::PI / 180.0,
             error_tolerance: 1e-4,
             history_error_tolerance: 2e-2,
-            history_halvings: 3,
+            history_halvings: 2,
             newton_tolerance: 1e-5,
+            history_newton_tolerance: 1e-4,
             iteration_limit: 20,
             largest_gap_loss: 0.7,
             largest_halvings: 10,
@@ -191,7 +194,11 @@ impl<'a> Run<'a> {
             limits: NewtonLimits {
                 iterations: settings.iteration_limit,
                 residual: 1e-3,
-                step: settings.newton_tolerance,
+                step: if capabilities.has_history {
+                    settings.history_newton_tolerance
+                } else {
+                    settings.newton_tolerance
+                },
                 gap_loss: settings.largest_gap_loss,
                 takes_last_step: !capabilities.has_history,
             },

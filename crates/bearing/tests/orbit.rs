@@ -294,6 +294,7 @@ fn errors(film: &mut dyn FilmForce, mass: f64) -> Vec<f64> {
             error_tolerance: f64::INFINITY,
             history_error_tolerance: f64::INFINITY,
             newton_tolerance: 1e-8,
+            history_newton_tolerance: 1e-8,
             closure_tolerance: 1e-9,
             cycle_limit: 30,
             ..OrbitSettings::default()
