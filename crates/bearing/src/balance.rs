@@ -225,8 +225,34 @@ impl Balance {
         ]
     }
 
-    /// Newton step in m and rad, solved with tilts as displacements at the bearing ends.
-    fn newton_step(&self, residual: Coordinates, tangent: &Tangent) -> Option<Coordinates> {
+    /// Newton step in m and rad. A film that has run empty on one side does not resist motion that
+    /// way: where the step of a moving journal leaves the gap, a resistance is added that lets the
+    /// residual move the journal by about half a gap (Levenberg); it fades with the residual.
+    fn newton_step(
+        &self,
+        residual: Coordinates,
+        tangent: &Tangent,
+        gap: f64,
+    ) -> Option<Coordinates> {
+        let plain = self.resisted_step(residual, tangent, 0.0);
+        if matches!(self.motion, Motion::AtRest)
+            || plain.is_some_and(|step| length(step, self.arm) <= gap.abs())
+        {
+            return plain;
+        }
+        let size = residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+        self.resisted_step(residual, tangent, 2.0 * size / gap.abs())
+            .or(plain)
+    }
+
+    /// Newton step with an additional resistance (N/m), solved with tilts as displacements at the
+    /// bearing ends.
+    fn resisted_step(
+        &self,
+        residual: Coordinates,
+        tangent: &Tangent,
+        resistance: f64,
+    ) -> Option<Coordinates> {
         let mut matrix = self.motion.total_tangent(tangent);
         for (row, values) in matrix.iter_mut().enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
@@ -235,6 +261,9 @@ impl Balance {
                     *value /= self.arm;
                 }
             }
+        }
+        for (axis, row) in matrix.iter_mut().enumerate() {
+            row[axis] -= resistance;
         }
         let [x, y, end_x, end_y] = solve(matrix, residual.map(|value| -value), self.size())?;
         Some([x, y, end_x / self.arm, end_y / self.arm])
@@ -305,10 +334,10 @@ impl Balance {
                 continue;
             }
             newton.keep_best(state, &linearised, size);
-            let Some(step) = self.newton_step(residual, &linearised.tangent) else {
+            let gap = film.minimum_gap(&state);
+            let Some(step) = self.newton_step(residual, &linearised.tangent, gap) else {
                 break;
             };
-            let gap = film.minimum_gap(&state);
             let relative_step = length(step, self.arm) / gap.abs();
             let done =
                 linearised.settled && size <= limits.residual && relative_step <= limits.step;

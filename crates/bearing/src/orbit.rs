@@ -99,6 +99,19 @@ pub struct Progress {
 /// to stop. Called for the start once, then at the end of each output crank step.
 pub type Observer<'a> = dyn FnMut(&CyclePoint, &dyn FilmForce, Progress) -> ControlFlow<()> + 'a;
 
+/// From this level of halving on, a substep that fails is tried once more with patience.
+const PATIENT_LEVEL: u32 = 2;
+
+/// Limits for a journal that crosses an emptied gap: nothing holds it until it meets oil again, so
+/// that a shorter time step does not help, but many small Newton steps do.
+fn patient(limits: &NewtonLimits) -> NewtonLimits {
+    NewtonLimits {
+        iterations: 6 * limits.iterations,
+        gap_loss: 0.4 * limits.gap_loss,
+        ..*limits
+    }
+}
+
 /// Refused substeps at the finest level before the rest of an output crank step is given up.
 const LARGEST_FAILURES: usize = 3;
 
@@ -345,7 +358,15 @@ impl<'a> Run<'a> {
         loop {
             self.moving.crank_angle = from + self.substeps.position() * self.crank_step;
             let angle = self.substeps.length() * self.crank_step;
-            let trial = self.stepper.try_step(self.film, &self.moving, angle)?;
+            let mut trial = self.stepper.try_step(self.film, &self.moving, angle)?;
+            if trial.outcome == Outcome::NotConverged && self.substeps.level() >= PATIENT_LEVEL {
+                self.film.reject_step();
+                let hasty = self.stepper.limits;
+                self.stepper.limits = patient(&hasty);
+                let again = self.stepper.try_step(self.film, &self.moving, angle);
+                self.stepper.limits = hasty;
+                trial = again?;
+            }
             let solved = trial.outcome == Outcome::Converged;
             let accurate = trial.error <= tolerance || self.substeps.level() >= finest;
             if !(solved && accurate) && self.substeps.halve() {

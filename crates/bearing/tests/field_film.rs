@@ -115,7 +115,7 @@ fn mass_conserving_big_end_runs_through_its_cycle() {
         .map(|point| point.summary.mass_balance_relative)
         .fold(0.0, f64::max);
     assert!(worst < 1e-7, "{worst:e}");
-    assert!(orbit.film_solves < 10 * 2 * 360, "{}", orbit.film_solves);
+    assert!(orbit.film_solves < 15 * 2 * 360, "{}", orbit.film_solves);
 }
 
 /// The one-axis cycle with the finite film (validation/flores-2006/reference_finite.csv).
