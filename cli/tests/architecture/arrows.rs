@@ -142,7 +142,8 @@ pub fn inside_crate(
             } else {
                 faults.push(format!(
                     "{path}:{line}: `crate::{}` is neither a module nor re-exported by name in the crate \
-                     root: name the module it lives in",
+                     root: name the module it lives in, or, if it is defined in the root, move it to a \
+                     module (the root only opens the rooms)",
                     mention.name
                 ));
                 continue;

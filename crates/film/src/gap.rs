@@ -63,8 +63,7 @@ impl Gap {
             let behind = profile(x, if i == n { -1.0 } else { 1.0 });
             let resistance = before.powi(-3) + behind.powi(-3);
             for j in 0..m {
-                gap.around_transport[i * m + j] =
-                    (before.powi(-2) + behind.powi(-2)) / resistance;
+                gap.around_transport[i * m + j] = (before.powi(-2) + behind.powi(-2)) / resistance;
                 gap.around_cubed[i * m + j] = 2.0 / resistance;
             }
         }

@@ -135,15 +135,25 @@ impl SolvedFilm<'_> {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let mut sum = 0.0;
         // A periodic ring meets its first face twice: as face 0 and as face n.
-        let last = if self.operator.west(0, 0).is_some() { n } else { n + 1 };
+        let last = if self.operator.west(0, 0).is_some() {
+            n
+        } else {
+            n + 1
+        };
         for i in 0..last {
             for j in 0..m {
-                let before = if i == 0 { self.operator.west(0, j) } else { Some((i - 1) * m + j) };
+                let before = if i == 0 {
+                    self.operator.west(0, j)
+                } else {
+                    Some((i - 1) * m + j)
+                };
                 let behind = if i == n { None } else { Some(i * m + j) };
                 let (p_before, _) =
-                    self.operator.beside(before, 0, self.pressure, self.film_fraction);
+                    self.operator
+                        .beside(before, 0, self.pressure, self.film_fraction);
                 let (p_behind, _) =
-                    self.operator.beside(behind, 1, self.pressure, self.film_fraction);
+                    self.operator
+                        .beside(behind, 1, self.pressure, self.film_fraction);
                 let height = self.gap.around_transport[i * m + j];
                 sum += height * (p_behind - p_before) * self.grid.axial_widths[j];
             }
@@ -204,8 +214,11 @@ impl SolvedFilm<'_> {
         }
         (0..self.grid.n_axial())
             .map(|j| {
-                self.operator.flow_around(0, j, self.pressure, self.film_fraction)
-                    - self.operator.flow_around(n, j, self.pressure, self.film_fraction)
+                self.operator
+                    .flow_around(0, j, self.pressure, self.film_fraction)
+                    - self
+                        .operator
+                        .flow_around(n, j, self.pressure, self.film_fraction)
             })
             .sum()
     }
@@ -213,9 +226,8 @@ impl SolvedFilm<'_> {
     /// Power by friction and by squeeze, W, both relative to the shell.
     fn add_power(&self, state: &JournalState, reaction: &Reaction, summary: &mut FilmSummary) {
         let turning = state.shell_speed;
-        let relative = |rate: [f64; 2], of: [f64; 2]| {
-            [rate[0] + turning * of[1], rate[1] - turning * of[0]]
-        };
+        let relative =
+            |rate: [f64; 2], of: [f64; 2]| [rate[0] + turning * of[1], rate[1] - turning * of[0]];
         let velocity = relative(state.velocity, state.position);
         let tilt_rate = relative(state.tilt_rate, state.tilt);
         let (force, moment) = (reaction.film_force, reaction.film_moment);
@@ -280,7 +292,12 @@ impl SolvedFilm<'_> {
             }
         }
         let force = self.units.pressure * self.units.area;
-        let outputs = [force, force, force * self.units.radius, force * self.units.radius];
+        let outputs = [
+            force,
+            force,
+            force * self.units.radius,
+            force * self.units.radius,
+        ];
         let per_length = 1.0 / self.units.clearance;
         let per_tilt = self.units.radius / self.units.clearance;
         let inputs = [per_length, per_length, per_tilt, per_tilt];
@@ -290,29 +307,54 @@ impl SolvedFilm<'_> {
                 by_rate[row][column] *= output * input;
             }
         }
-        Tangent { by_position, by_rate }
+        Tangent {
+            by_position,
+            by_rate,
+        }
     }
 
     fn sensitivity_around(&self, adjoints: &[Vec<f64>; 4], by: &mut [[f64; 4]; 4]) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
-        let last = if self.operator.west(0, 0).is_some() { n } else { n + 1 };
+        let last = if self.operator.west(0, 0).is_some() {
+            n
+        } else {
+            n + 1
+        };
         for i in 0..last {
             for j in 0..m {
                 let face = i * m + j;
-                let before = if i == 0 { self.operator.west(0, j) } else { Some(face - m) };
+                let before = if i == 0 {
+                    self.operator.west(0, j)
+                } else {
+                    Some(face - m)
+                };
                 let behind = if i == n { None } else { Some(face) };
                 let (p_before, theta_before) =
-                    self.operator.beside(before, 0, self.pressure, self.film_fraction);
+                    self.operator
+                        .beside(before, 0, self.pressure, self.film_fraction);
                 let (p_behind, theta_behind) =
-                    self.operator.beside(behind, 1, self.pressure, self.film_fraction);
+                    self.operator
+                        .beside(behind, 1, self.pressure, self.film_fraction);
                 let transport = self.operator.transport[face];
-                let upstream = if transport > 0.0 { theta_before } else { theta_behind };
+                let upstream = if transport > 0.0 {
+                    theta_before
+                } else {
+                    theta_behind
+                };
                 let conducted = 3.0 * self.operator.conductance_around[face];
                 let by_height = (conducted * (p_before - p_behind) + transport * upstream)
                     / self.gap.around_transport[face];
                 let value = |y: &[f64], cell: Option<usize>| cell.map_or(0.0, |k| y[k]);
-                let drops = adjoints.each_ref().map(|y| value(y, before) - value(y, behind));
-                accumulate(by, drops, by_height, self.angles.faces[i], self.grid.axial[j]);
+                let drops = adjoints
+                    .each_ref()
+                    .map(|y| value(y, before) - value(y, behind));
+                accumulate(
+                    by,
+                    drops,
+                    by_height,
+                    self.angles.faces[i],
+                    self.grid.axial[j],
+                );
             }
         }
     }
@@ -328,7 +370,13 @@ impl SolvedFilm<'_> {
                     let behind = if j == m { 0.0 } else { y[i * m + j] };
                     before - behind
                 });
-                accumulate(by, drops, by_height, self.angles.centres[i], self.grid.axial_faces[j]);
+                accumulate(
+                    by,
+                    drops,
+                    by_height,
+                    self.angles.centres[i],
+                    self.grid.axial_faces[j],
+                );
             }
         }
     }
@@ -345,7 +393,11 @@ impl SolvedFilm<'_> {
             Axial::Air(_) if !self.set.end_open[2 * i + usize::from(j == m)] => return 0.0,
             Axial::Bath(p) | Axial::Air(p) => p,
         };
-        let (inside, outward) = if j == 0 { (i * m, -1.0) } else { (i * m + m - 1, 1.0) };
+        let (inside, outward) = if j == 0 {
+            (i * m, -1.0)
+        } else {
+            (i * m + m - 1, 1.0)
+        };
         let conductance = self.operator.conductance_axial[i * (m + 1) + j];
         outward * conductance * (self.pressure[inside] - outside)
     }
@@ -358,17 +410,19 @@ impl SolvedFilm<'_> {
                 let k = i * m + j;
                 let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
                 let values = adjoints.each_ref().map(|y| y[k]);
-                accumulate(by, values, by_height, self.angles.means[i], self.grid.axial[j]);
+                accumulate(
+                    by,
+                    values,
+                    by_height,
+                    self.angles.means[i],
+                    self.grid.axial[j],
+                );
             }
         }
     }
 
     /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell.
-    pub fn output_weights(
-        &self,
-        loaded: impl Fn(usize) -> bool,
-        weights: &mut [Vec<f64>; 4],
-    ) {
+    pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Vec<f64>; 4]) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
             let [cos, sin] = self.angles.means[i];
@@ -433,7 +487,13 @@ pub fn minimum_film(bearing: &Bearing, state: &JournalState) -> Extreme {
     let half = 0.5 * bearing.width;
     [at(-half), at(half)]
         .into_iter()
-        .fold(at(0.0), |least, edge| if edge.value < least.value { edge } else { least })
+        .fold(at(0.0), |least, edge| {
+            if edge.value < least.value {
+                edge
+            } else {
+                least
+            }
+        })
 }
 
 /// Waviness of a state's position and of its motion, relative to the clearance.

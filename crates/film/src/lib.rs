@@ -13,6 +13,7 @@
 pub mod bearing;
 pub mod cavitation;
 pub mod closed_form;
+pub mod dimensionless;
 pub mod force;
 pub mod frame;
 pub mod gap;

@@ -191,7 +191,11 @@ impl Operator {
     /// Flow through face `i` around in row `j`, 1/s.
     #[must_use]
     pub fn flow_around(&self, i: usize, j: usize, pressure: &[f64], film_fraction: &[f64]) -> f64 {
-        let before = if i == 0 { self.west(0, j) } else { Some((i - 1) * self.n_axial + j) };
+        let before = if i == 0 {
+            self.west(0, j)
+        } else {
+            Some((i - 1) * self.n_axial + j)
+        };
         let behind = if i == self.n_around {
             self.east(i - 1, j)
         } else {
@@ -201,7 +205,11 @@ impl Operator {
         let (p_behind, theta_behind) = self.beside(behind, 1, pressure, film_fraction);
         let face = i * self.n_axial + j;
         let transport = self.transport[face];
-        let upstream = if transport > 0.0 { theta_before } else { theta_behind };
+        let upstream = if transport > 0.0 {
+            theta_before
+        } else {
+            theta_behind
+        };
         self.conductance_around[face] * (p_before - p_behind) + transport * upstream
     }
 

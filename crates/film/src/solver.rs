@@ -95,7 +95,9 @@ impl FilmSolver {
                 let grid = Grid::shell_fixed(bearing, n_around, n_axial);
                 Self::on_grid(bearing, lubricant, grid, Frame::Shell)
             }
-            Inlet::MaxFilmLine { .. } => Self::following(bearing, lubricant, [n_around, n_axial], 0.0),
+            Inlet::MaxFilmLine { .. } => {
+                Self::following(bearing, lubricant, [n_around, n_axial], 0.0)
+            }
         }
     }
 
@@ -213,7 +215,11 @@ impl FilmSolver {
     }
 
     /// Set of a cold film: that of the same film on half the cells, to the root.
-    fn start_cold(&mut self, state: &JournalState, conditions: &Conditions<'_>) -> Result<(), FilmError> {
+    fn start_cold(
+        &mut self,
+        state: &JournalState,
+        conditions: &Conditions<'_>,
+    ) -> Result<(), FilmError> {
         self.film.is_warm = true;
         for cell in &mut self.film.set.cells {
             *cell = Cell::Full;
@@ -236,10 +242,14 @@ impl FilmSolver {
     fn prepare(&mut self, state: &JournalState, step: Step, conditions: &Conditions<'_>) {
         let film = &mut self.film;
         let temperature = conditions.temperature;
-        film.units = Units::of(&self.bearing, self.lubricant.viscosity(temperature, 0.0).value);
+        film.units = Units::of(
+            &self.bearing,
+            self.lubricant.viscosity(temperature, 0.0).value,
+        );
         film.density = self.lubricant.density(temperature, 0.0).value;
         let (position, rate) = relative_motion(&self.bearing, state);
-        self.angles.fill_gap(&self.grid, &position, &rate, &mut film.gap);
+        self.angles
+            .fill_gap(&self.grid, &position, &rate, &mut film.gap);
 
         mark_fed_cells(&self.bearing, &self.grid, state, &mut film.fed_by);
         film.place_feeds(&self.bearing, conditions);
@@ -247,7 +257,8 @@ impl FilmSolver {
         film.place_boundaries(&self.bearing);
         film.take_old_content(step);
         let storage = film_storage(self.closure.as_ref(), step, &film.old_content);
-        film.operator.update(&self.grid, &film.gap, state.mean_speed(), storage);
+        film.operator
+            .update(&self.grid, &film.gap, state.mean_speed(), storage);
     }
 
     fn solved(&self) -> SolvedFilm<'_> {
@@ -448,8 +459,9 @@ impl Film {
     fn place_feeds(&mut self, bearing: &Bearing, conditions: &Conditions<'_>) {
         let given = conditions.feed_pressures;
         for (index, feed) in bearing.feeds.iter().enumerate() {
-            self.feed_flows[index].pressure =
-                given.and_then(|p| p.get(index)).map_or(feed.pressure, |p| *p);
+            self.feed_flows[index].pressure = given
+                .and_then(|p| p.get(index))
+                .map_or(feed.pressure, |p| *p);
         }
         for k in 0..self.fed_by.len() {
             match (self.fed_by[k], self.set.cells[k]) {
@@ -505,9 +517,15 @@ impl Film {
         self.factor.solve(&mut self.solution);
         self.refine();
         self.snap_round_off();
-        closure.fields(&self.set, &self.solution, &mut self.pressure, &mut self.film_fraction);
+        closure.fields(
+            &self.set,
+            &self.solution,
+            &mut self.pressure,
+            &mut self.film_fraction,
+        );
         self.flow_scale =
-            self.operator.balance(&self.pressure, &self.film_fraction, &mut self.excess);
+            self.operator
+                .balance(&self.pressure, &self.film_fraction, &mut self.excess);
         self.account_feeds();
         self.solution.iter().all(|x| x.is_finite())
     }
@@ -515,7 +533,9 @@ impl Film {
     /// One step of iterative refinement where elimination left more than round-off.
     fn refine(&mut self) {
         let largest = self.rhs.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let residual = self.matrix.residual(&self.solution, &self.rhs, &mut self.correction);
+        let residual = self
+            .matrix
+            .residual(&self.solution, &self.rhs, &mut self.correction);
         if residual > ROUND_OFF * largest {
             self.factor.solve(&mut self.correction);
             for (x, dx) in self.solution.iter_mut().zip(&self.correction) {
@@ -574,7 +594,10 @@ impl Film {
     }
 
     fn complementarity_violation(&self) -> f64 {
-        let peak = self.pressure.iter().fold(f64::MIN_POSITIVE, |a, b| a.max(*b));
+        let peak = self
+            .pressure
+            .iter()
+            .fold(f64::MIN_POSITIVE, |a, b| a.max(*b));
         let fields = self.pressure.iter().zip(&self.film_fraction);
         fields.fold(0.0_f64, |worst, (p, theta)| {
             let both = (p / peak).min(1.0 - theta);
@@ -584,14 +607,19 @@ impl Film {
 
     /// Largest imbalance of a cell whose equation is a balance, over the largest flow.
     fn cell_residual(&self, closure: &dyn CavitationModel) -> f64 {
-        let worst = self.excess.iter().zip(&self.set.cells).fold(0.0_f64, |worst, (excess, cell)| {
-            match cell {
+        let worst = self.excess.iter().zip(&self.set.cells).fold(
+            0.0_f64,
+            |worst, (excess, cell)| match cell {
                 Cell::Full => worst.max(excess.abs()),
                 Cell::Ruptured if closure.conserves_mass() => worst.max(excess.abs()),
                 _ => worst,
-            }
-        });
-        if self.flow_scale > 0.0 { worst / self.flow_scale } else { 0.0 }
+            },
+        );
+        if self.flow_scale > 0.0 {
+            worst / self.flow_scale
+        } else {
+            0.0
+        }
     }
 }
 

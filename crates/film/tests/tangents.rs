@@ -4,7 +4,9 @@
 mod common;
 
 use common::{big_end, conditions, feed_hole, oil};
-use sommerfeld_film::{Bearing, Cavitation, FilmForce, FilmSolver, Inlet, JournalState, Reaction, Step};
+use sommerfeld_film::{
+    Bearing, Cavitation, FilmForce, FilmSolver, Inlet, JournalState, Reaction, Step,
+};
 
 fn state(c: f64) -> JournalState {
     JournalState {
@@ -44,19 +46,28 @@ fn worst_deviation(bearing: &Bearing, step: Step) -> f64 {
     let mut film = FilmSolver::new(bearing, &oil(), [64, 16]).unwrap();
     if let Step::Implicit { duration } = step {
         // From where the motion came: no cell is left exactly at the corner of its two conditions.
-        let back = |at: [f64; 2], rate: [f64; 2]| [at[0] - duration * rate[0], at[1] - duration * rate[1]];
+        let back =
+            |at: [f64; 2], rate: [f64; 2]| [at[0] - duration * rate[0], at[1] - duration * rate[1]];
         let before = JournalState {
             position: back(centre.position, centre.velocity),
             tilt: back(centre.tilt, centre.tilt_rate),
             ..centre
         };
-        assert!(film.react(&before, Step::Steady, &conditions()).unwrap().settled);
+        assert!(
+            film.react(&before, Step::Steady, &conditions())
+                .unwrap()
+                .settled
+        );
         film.accept_step();
     }
     let tangent = film.react(&centre, step, &conditions()).unwrap().tangent;
     let mut worst = 0.0_f64;
     for rates in [false, true] {
-        let analytic = if rates { tangent.by_rate } else { tangent.by_position };
+        let analytic = if rates {
+            tangent.by_rate
+        } else {
+            tangent.by_position
+        };
         for column in 0..4 {
             // Small against the cells, so that the set mostly stays as it is.
             let unit = if column < 2 { c } else { c / 0.015 } * if rates { 200.0 } else { 1.0 };
@@ -84,9 +95,17 @@ fn worst_deviation(bearing: &Bearing, step: Step) -> f64 {
 #[test]
 fn tangents_equal_differences_for_every_closure_and_step() {
     let steps = [Step::Steady, Step::Implicit { duration: 1e-4 }];
-    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds, Cavitation::MassConserving] {
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
         for step in steps {
-            let bearing = Bearing { cavitation, feeds: vec![feed_hole()], ..big_end() };
+            let bearing = Bearing {
+                cavitation,
+                feeds: vec![feed_hole()],
+                ..big_end()
+            };
             let deviation = worst_deviation(&bearing, step);
             assert!(deviation < 2e-5, "{cavitation:?} {step:?}: {deviation:e}");
         }
@@ -95,9 +114,17 @@ fn tangents_equal_differences_for_every_closure_and_step() {
 
 #[test]
 fn tangents_follow_the_line_of_centres() {
-    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds, Cavitation::MassConserving] {
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
         let inlet = Inlet::MaxFilmLine { pressure: 2e5 };
-        let bearing = Bearing { cavitation, inlet, ..big_end() };
+        let bearing = Bearing {
+            cavitation,
+            inlet,
+            ..big_end()
+        };
         let deviation = worst_deviation(&bearing, Step::Steady);
         assert!(deviation < 2e-5, "{cavitation:?}: {deviation:e}");
     }

@@ -4,7 +4,7 @@
 //! feels the density only through its ratio to the feed density (compressibility), through ASTM
 //! D341's kinematic viscosity, and through the Reynolds number that is reported.
 
-use crate::{Derived, OilError, positive};
+use crate::{Derived, OilError, law::positive};
 use serde::{Deserialize, Serialize};
 
 /// Law of the density.

@@ -9,7 +9,7 @@
 //! Newtonian at every pressure: each law gives a zero derivative with respect to pressure except
 //! through the density.
 
-use crate::{Derived, OilError, positive};
+use crate::{Derived, OilError, law::positive};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_10;
 

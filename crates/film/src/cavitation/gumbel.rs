@@ -14,11 +14,23 @@ impl CavitationModel for Gumbel {
         false
     }
 
-    fn assemble(&self, operator: &Operator, set: &FilmSet, matrix: &mut RingMatrix, rhs: &mut [f64]) {
+    fn assemble(
+        &self,
+        operator: &Operator,
+        set: &FilmSet,
+        matrix: &mut RingMatrix,
+        rhs: &mut [f64],
+    ) {
         assemble_balance(operator, set, RupturedRow::Known, matrix, rhs);
     }
 
-    fn fields(&self, _: &FilmSet, solution: &[f64], pressure: &mut [f64], film_fraction: &mut [f64]) {
+    fn fields(
+        &self,
+        _: &FilmSet,
+        solution: &[f64],
+        pressure: &mut [f64],
+        film_fraction: &mut [f64],
+    ) {
         for ((p, theta), x) in pressure.iter_mut().zip(film_fraction).zip(solution) {
             *p = x.max(0.0);
             *theta = 1.0;

@@ -18,11 +18,23 @@ impl CavitationModel for MassConserving {
         true
     }
 
-    fn assemble(&self, operator: &Operator, set: &FilmSet, matrix: &mut RingMatrix, rhs: &mut [f64]) {
+    fn assemble(
+        &self,
+        operator: &Operator,
+        set: &FilmSet,
+        matrix: &mut RingMatrix,
+        rhs: &mut [f64],
+    ) {
         assemble_balance(operator, set, RupturedRow::FilmFraction, matrix, rhs);
     }
 
-    fn fields(&self, set: &FilmSet, solution: &[f64], pressure: &mut [f64], film_fraction: &mut [f64]) {
+    fn fields(
+        &self,
+        set: &FilmSet,
+        solution: &[f64],
+        pressure: &mut [f64],
+        film_fraction: &mut [f64],
+    ) {
         for (k, x) in solution.iter().enumerate() {
             (pressure[k], film_fraction[k]) = match set.cells[k] {
                 Cell::Full | Cell::Fed => (*x, 1.0),

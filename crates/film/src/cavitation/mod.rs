@@ -24,10 +24,22 @@ pub trait CavitationModel: Send + Sync {
     fn conserves_mass(&self) -> bool;
 
     /// Writes the linear equations of the set into `matrix` and `rhs`.
-    fn assemble(&self, operator: &Operator, set: &FilmSet, matrix: &mut RingMatrix, rhs: &mut [f64]);
+    fn assemble(
+        &self,
+        operator: &Operator,
+        set: &FilmSet,
+        matrix: &mut RingMatrix,
+        rhs: &mut [f64],
+    );
 
     /// Splits the solution of the set's equations into pressure (1/s) and film fraction.
-    fn fields(&self, set: &FilmSet, solution: &[f64], pressure: &mut [f64], film_fraction: &mut [f64]);
+    fn fields(
+        &self,
+        set: &FilmSet,
+        solution: &[f64],
+        pressure: &mut [f64],
+        film_fraction: &mut [f64],
+    );
 
     /// The pressure that solves the set's equations, where that is not the one of
     /// [`CavitationModel::fields`]: the tangents need it.
@@ -221,7 +233,11 @@ impl Row {
         let at_end = if towards_south { j == 0 } else { j + 1 == m };
         if !at_end {
             self.centre += own * conductance;
-            let cell = if towards_south { i * m + j - 1 } else { i * m + j + 1 };
+            let cell = if towards_south {
+                i * m + j - 1
+            } else {
+                i * m + j + 1
+            };
             return self.couple(set, cell, conductance);
         }
         let outside = match operator.axial {

@@ -15,11 +15,23 @@ impl CavitationModel for Reynolds {
         false
     }
 
-    fn assemble(&self, operator: &Operator, set: &FilmSet, matrix: &mut RingMatrix, rhs: &mut [f64]) {
+    fn assemble(
+        &self,
+        operator: &Operator,
+        set: &FilmSet,
+        matrix: &mut RingMatrix,
+        rhs: &mut [f64],
+    ) {
         assemble_balance(operator, set, RupturedRow::Known, matrix, rhs);
     }
 
-    fn fields(&self, _: &FilmSet, solution: &[f64], pressure: &mut [f64], film_fraction: &mut [f64]) {
+    fn fields(
+        &self,
+        _: &FilmSet,
+        solution: &[f64],
+        pressure: &mut [f64],
+        film_fraction: &mut [f64],
+    ) {
         pressure.copy_from_slice(solution);
         film_fraction.fill(1.0);
     }

@@ -180,7 +180,8 @@ impl RingFactor {
         let m = self.n_axial;
         let coupling = [&self.behind, &self.ahead];
         if let Some(border) = self.border {
-            self.border_line.copy_from_slice(&x[border * m..(border + 1) * m]);
+            self.border_line
+                .copy_from_slice(&x[border * m..(border + 1) * m]);
         }
         for position in 0..self.order.len() {
             let station = self.order[position];
@@ -235,7 +236,8 @@ impl RingFactor {
     pub fn solve_transposed(&mut self, x: &mut [f64]) {
         let m = self.n_axial;
         if let Some(border) = self.border {
-            self.border_line.copy_from_slice(&x[border * m..(border + 1) * m]);
+            self.border_line
+                .copy_from_slice(&x[border * m..(border + 1) * m]);
         }
         for position in 0..self.order.len() {
             let station = self.order[position];
@@ -471,7 +473,13 @@ impl RingFactor {
         let diagonal = &self.inverse_diagonal[station * m..(station + 1) * m];
         if self.has_to_border[station] {
             // product = inverse * to_border
-            multiply_left(inverse, diagonal, columns, &self.to_border[here.clone()], &mut self.product);
+            multiply_left(
+                inverse,
+                diagonal,
+                columns,
+                &self.to_border[here.clone()],
+                &mut self.product,
+            );
             if self.has_from_border[station] {
                 let from = &self.from_border[here.clone()];
                 subtract_matrix_product(from, &self.product, m, &mut self.border_inverse);
@@ -497,7 +505,13 @@ impl RingFactor {
             let ahead = &self.ahead[station * m..(station + 1) * m];
             if ahead.iter().any(|v| *v != 0.0) {
                 // product = from_border * inverse
-                multiply_right(&self.from_border[here], inverse, diagonal, columns, &mut self.product);
+                multiply_right(
+                    &self.from_border[here],
+                    inverse,
+                    diagonal,
+                    columns,
+                    &mut self.product,
+                );
                 let target = &mut self.from_border[next * size..(next + 1) * size];
                 if !self.has_from_border[next] {
                     target.fill(0.0);
@@ -505,8 +519,7 @@ impl RingFactor {
                 }
                 for row in 0..m {
                     for column in 0..m {
-                        target[row * m + column] -=
-                            self.product[row * m + column] * ahead[column];
+                        target[row * m + column] -= self.product[row * m + column] * ahead[column];
                     }
                 }
             }
@@ -596,7 +609,12 @@ fn gathered_dot(line: &[f64], columns: &[usize], x: &[f64]) -> f64 {
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
-    let rest: f64 = a4.remainder().iter().zip(b4.remainder()).map(|(x, y)| x * y).sum();
+    let rest: f64 = a4
+        .remainder()
+        .iter()
+        .zip(b4.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
     for (x, y) in a4.zip(b4) {
         for lane in 0..4 {
             sums[lane] += x[lane] * y[lane];
@@ -721,10 +739,19 @@ mod tests {
     use super::*;
 
     /// Random film-like matrix: pressure columns conduct, the others drain with the flow.
-    fn sample(n: usize, m: usize, periodic: bool, flows_east: bool, seed: u64, share: f64) -> RingMatrix {
+    fn sample(
+        n: usize,
+        m: usize,
+        periodic: bool,
+        flows_east: bool,
+        seed: u64,
+        share: f64,
+    ) -> RingMatrix {
         let mut state = seed;
         let mut random = move || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
         let mut a = RingMatrix::new(n, m, periodic);
@@ -789,7 +816,11 @@ mod tests {
                 }
             }
         }
-        product.iter().zip(w).map(|(p, w)| (p - w).abs()).fold(0.0, f64::max)
+        product
+            .iter()
+            .zip(w)
+            .map(|(p, w)| (p - w).abs())
+            .fold(0.0, f64::max)
     }
 
     #[test]
@@ -806,12 +837,18 @@ mod tests {
                     let mut r = vec![0.0; 45];
                     let scale = x.iter().fold(1.0, |s: f64, v| s.max(v.abs()));
                     let residual = a.residual(&x, &rhs, &mut r);
-                    assert!(residual < 1e-11 * scale, "{periodic} {flows_east} {share}: {residual}");
+                    assert!(
+                        residual < 1e-11 * scale,
+                        "{periodic} {flows_east} {share}: {residual}"
+                    );
                     let mut y = rhs.clone();
                     factor.solve_transposed(&mut y);
                     let scale = y.iter().fold(1.0, |s: f64, v| s.max(v.abs()));
                     let residual = transposed_residual(&a, &y, &rhs);
-                    assert!(residual < 1e-11 * scale, "transposed {periodic} {flows_east} {share}: {residual}");
+                    assert!(
+                        residual < 1e-11 * scale,
+                        "transposed {periodic} {flows_east} {share}: {residual}"
+                    );
                 }
             }
         }

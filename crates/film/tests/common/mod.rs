@@ -45,3 +45,40 @@ pub fn conditions() -> Conditions<'static> {
         feed_pressures: None,
     }
 }
+
+/// Rows of `validation/<case>/<file>` as numbers by column; lines that open with `#` and the header
+/// are left out, and words become NaN.
+pub fn reference_rows(case: &str, file: &str) -> Vec<Vec<f64>> {
+    let path = format!(
+        "{}/../../validation/{case}/{file}",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"));
+    text.lines()
+        .filter(|line| !line.starts_with('#') && !line.trim().is_empty())
+        .skip(1)
+        .map(|line| {
+            line.split(',')
+                .map(|v| v.trim().parse().unwrap_or(f64::NAN))
+                .collect()
+        })
+        .collect()
+}
+
+/// Dimensionless bearing: R = 1 m, psi = 1e-3, width 2 B/D, so that with 1 rad/s and [`unit_oil`]
+/// pressures are `Pi` and forces four times `So` times B/D.
+pub fn unit_bearing(width_ratio: f64) -> Bearing {
+    Bearing {
+        diameter: 2.0,
+        width: 2.0 * width_ratio,
+        radial_clearance: 1e-3,
+        cavitation: Cavitation::Reynolds,
+        film_shear: FilmShear::FullWidth,
+        ..big_end()
+    }
+}
+
+/// eta = psi^2, so that `p psi^2/(eta omega) = p` at 1 rad/s.
+pub fn unit_oil() -> Lubricant {
+    Lubricant::constant(1e-6, 850.0)
+}

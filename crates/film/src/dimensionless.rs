@@ -1,0 +1,220 @@
+//! The paper's dimensionless problem as a bearing, and its integrals back from the reaction.
+//!
+//! ```text
+//! d/dphi(H^3 dPi/dphi) + (D/B)^2 d/dZ(H^3 dPi/dZ) = wedge 6 dH/dphi + squeeze 12 cos(phi)
+//! H = 1 + eps cos(phi) - gamma (1 - eps) Z cos(phi) - delta Z sin(phi),        Z = 2z/B
+//! ```
+//! phi runs from the WIDEST gap, against which the shell frame's angle, from the narrowest gap, is
+//! turned by pi. The bearing has R = 1 m, psi = 1e-3 and eta = psi^2, so that at 1 rad/s and 1/s
+//! pressures in Pa are `Pi`. Source: Marsalek, Novotny, Drapal, Pistek (2012), equations 4 to 9, with
+//! `delta` as it stands in the gap.
+
+use crate::bearing::{Bearing, Cavitation, Ends, FilmShear, Inlet};
+use crate::force::{Conditions, FilmError, FilmForce, FilmSummary, Outcome, Reaction, Step};
+use crate::journal_state::JournalState;
+use crate::solver::FilmSolver;
+use serde::{Deserialize, Serialize};
+use sommerfeld_oil::Lubricant;
+
+const RADIUS: f64 = 1.0;
+const RELATIVE_CLEARANCE: f64 = 1e-3;
+
+/// One dimensionless film.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DimensionlessFilm {
+    /// Diameter over width.
+    pub d_over_b: f64,
+    /// Relative eccentricity.
+    pub relative_eccentricity: f64,
+    /// Tilt in the plane of the narrowest gap over its largest possible value.
+    pub tilt_gamma: f64,
+    /// Tilt across that plane, as it stands in the gap.
+    pub tilt_delta: f64,
+    /// Factor of the wedge term.
+    pub wedge: f64,
+    /// Factor of the squeeze term.
+    pub squeeze: f64,
+    /// Closure for the ruptured film.
+    pub cavitation: Cavitation,
+    /// Where the film starts.
+    pub inlet: Inlet,
+}
+
+/// Integrals of `Pi` over phi in [0, 2 pi] and Z in [-1, 1], and its peak.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct DimensionlessIntegrals {
+    /// Of `Pi cos(phi)`.
+    pub p_cos: f64,
+    /// Of `Pi sin(phi)`.
+    pub p_sin: f64,
+    /// Of `Pi Z cos(phi)`.
+    pub p_z_cos: f64,
+    /// Of `Pi Z sin(phi)`.
+    pub p_z_sin: f64,
+    /// Largest `Pi`.
+    pub peak: f64,
+}
+
+/// Place where a dimensionless gap closes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosedGap {
+    /// Smallest H, not positive.
+    pub relative_film_thickness: f64,
+    /// Angle from the widest gap, degrees.
+    pub phi_deg: f64,
+    /// Relative axial coordinate.
+    pub z: f64,
+}
+
+impl DimensionlessFilm {
+    /// The bearing whose film this is.
+    #[must_use]
+    pub fn bearing(&self) -> Bearing {
+        Bearing {
+            diameter: 2.0 * RADIUS,
+            width: 2.0 * RADIUS / self.d_over_b,
+            radial_clearance: RELATIVE_CLEARANCE * RADIUS,
+            feeds: Vec::new(),
+            ambient_pressure: 0.0,
+            cavitation_pressure: 0.0,
+            ends: Ends::Air,
+            inlet: self.inlet,
+            cavitation: self.cavitation,
+            film_shear: FilmShear::FullWidth,
+        }
+    }
+
+    /// Oil of the bearing.
+    #[must_use]
+    pub fn lubricant(&self) -> Lubricant {
+        const DENSITY: f64 = 1.0; // has no effect on an incompressible film
+        Lubricant::constant(RELATIVE_CLEARANCE * RELATIVE_CLEARANCE, DENSITY)
+    }
+
+    /// State of its journal, the narrowest gap towards +X.
+    #[must_use]
+    pub fn state(&self) -> JournalState {
+        let c = RELATIVE_CLEARANCE * RADIUS;
+        let width = 2.0 * RADIUS / self.d_over_b;
+        let eps = self.relative_eccentricity;
+        JournalState {
+            position: [eps * c, 0.0],
+            tilt: [
+                2.0 * c * self.tilt_delta / width,
+                -2.0 * c * self.tilt_gamma * (1.0 - eps) / width,
+            ],
+            velocity: [self.squeeze * c, 0.0],
+            journal_speed: self.wedge,
+            ..JournalState::default()
+        }
+    }
+
+    /// Where the gap closes; `None` while it is open everywhere.
+    #[must_use]
+    pub fn closed_gap(&self) -> Option<ClosedGap> {
+        let eps = self.relative_eccentricity;
+        [-1.0_f64, 1.0]
+            .into_iter()
+            .map(|z| {
+                let cos = eps - self.tilt_gamma * (1.0 - eps) * z;
+                let sin = -self.tilt_delta * z;
+                ClosedGap {
+                    relative_film_thickness: 1.0 - cos.hypot(sin),
+                    phi_deg: (-sin).atan2(-cos).to_degrees().rem_euclid(360.0),
+                    z,
+                }
+            })
+            .find(|gap| gap.relative_film_thickness <= 0.0)
+    }
+
+    /// The paper's integrals from the film's answer.
+    #[must_use]
+    pub fn integrals(&self, reaction: &Reaction, summary: &FilmSummary) -> DimensionlessIntegrals {
+        let half_width = RADIUS / self.d_over_b;
+        let (force, moment) = (reaction.film_force, reaction.film_moment);
+        let per_force = 1.0 / (RADIUS * half_width);
+        let per_moment = per_force / half_width;
+        DimensionlessIntegrals {
+            p_cos: force[0] * per_force,
+            p_sin: force[1] * per_force,
+            p_z_cos: moment[1] * per_moment,
+            p_z_sin: -moment[0] * per_moment,
+            peak: summary.peak_film_pressure.value,
+        }
+    }
+
+    /// Grading of a following grid that suits the eccentricity, see [`crate::Grid::following`].
+    #[must_use]
+    pub fn grading(&self) -> f64 {
+        (self.relative_eccentricity - 0.05).clamp(0.0, 0.95)
+    }
+}
+
+/// Solution of a dimensionless film.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DimensionlessSolution {
+    /// The integrals, extrapolated from two axial resolutions.
+    pub integrals: DimensionlessIntegrals,
+    /// How far the extrapolation moved each of them: an estimate of the error before it.
+    pub moved: DimensionlessIntegrals,
+    /// How the solution ended.
+    pub outcome: Outcome,
+    /// Film updates on both grids.
+    pub iterations: usize,
+}
+
+/// Solves `film` on `n_around` x `n_axial` cells and on half the axial cells, and extrapolates: the
+/// error is nearly all axial and of second order (Richardson).
+///
+/// # Errors
+/// [`FilmError::Contact`] where the gap closes.
+pub fn solve_dimensionless(
+    film: &DimensionlessFilm,
+    [n_around, n_axial]: [usize; 2],
+) -> Result<DimensionlessSolution, FilmError> {
+    let (fine, outcome, fine_iterations) = solve_on(film, [n_around, n_axial])?;
+    let (coarse, coarse_outcome, coarse_iterations) = solve_on(film, [n_around, n_axial / 2])?;
+    let ratio = (n_axial as f64 / (n_axial / 2) as f64).powi(2);
+    let shift = |fine: f64, coarse: f64| (fine - coarse) / (ratio - 1.0);
+    let moved = combine(&fine, &coarse, shift);
+    Ok(DimensionlessSolution {
+        integrals: combine(&fine, &moved, |value, by| value + by),
+        moved,
+        outcome: if coarse_outcome == Outcome::Converged {
+            outcome
+        } else {
+            coarse_outcome
+        },
+        iterations: fine_iterations + coarse_iterations,
+    })
+}
+
+fn solve_on(
+    film: &DimensionlessFilm,
+    cells: [usize; 2],
+) -> Result<(DimensionlessIntegrals, Outcome, usize), FilmError> {
+    let conditions = Conditions {
+        temperature: 373.15, // the viscosity is constant
+        feed_pressures: None,
+    };
+    let mut solver =
+        FilmSolver::following(&film.bearing(), &film.lubricant(), cells, film.grading())?;
+    let answer = solver.react(&film.state(), Step::Steady, &conditions)?;
+    let summary = solver.summary();
+    let integrals = film.integrals(&answer.reaction, &summary);
+    Ok((integrals, answer.outcome, summary.iterations))
+}
+
+fn combine(
+    a: &DimensionlessIntegrals,
+    b: &DimensionlessIntegrals,
+    with: impl Fn(f64, f64) -> f64,
+) -> DimensionlessIntegrals {
+    DimensionlessIntegrals {
+        p_cos: with(a.p_cos, b.p_cos),
+        p_sin: with(a.p_sin, b.p_sin),
+        p_z_cos: with(a.p_z_cos, b.p_z_cos),
+        p_z_sin: with(a.p_z_sin, b.p_z_sin),
+        peak: with(a.peak, b.peak),
+    }
+}

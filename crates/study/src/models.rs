@@ -1,0 +1,199 @@
+//! Every physical model the program can use, with where it comes from.
+//!
+//! Results name the models of their run, so that a reader can judge a number without the study
+//! file. A DOI stands here only where it is known for certain.
+
+use serde::Serialize;
+use sommerfeld_film::{Bearing, Cavitation, FilmShear, Inlet};
+
+/// One model: what it is and where it is published.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Model {
+    /// What it models, for example `cavitation`: the key of the study file where there is one.
+    pub family: &'static str,
+    /// Its name within the family, as in the study file.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub description: &'static str,
+    /// Author, year, title, where published; empty for a definition that needs no source.
+    pub reference: &'static str,
+    /// Digital object identifier without the resolver's address.
+    pub doi: Option<&'static str>,
+}
+
+/// Every model, in the order of reports: film, cavitation, inlet, shear, viscosity.
+pub const MODELS: &[Model] = &[
+    Model {
+        family: "film",
+        name: "field",
+        description: "Reynolds equation of the thin film, solved on a grid over angle and width",
+        reference: "Reynolds, O. (1886): On the theory of lubrication and its application to \
+                    Mr. Beauchamp Tower's experiments. Phil. Trans. R. Soc. 177, 157-234",
+        doi: Some("10.1098/rstl.1886.0005"),
+    },
+    Model {
+        family: "film",
+        name: "short-bearing",
+        description: "Reynolds equation without circumferential pressure flow: narrow bearings",
+        reference: "Ocvirk, F. W. (1952): Short-bearing approximation for full journal bearings. \
+                    NACA Technical Note 2808",
+        doi: None,
+    },
+    Model {
+        family: "film",
+        name: "mobility",
+        description: "Short-bearing mobility: journal velocity from load, fitted closed form",
+        reference: "Booker, J. F. (1965): Dynamically loaded journal bearings: mobility method \
+                    of solution. J. Basic Eng. 87, 537-546",
+        doi: Some("10.1115/1.3650602"),
+    },
+    Model {
+        family: "film",
+        name: "long-bearing",
+        description: "Reynolds equation without axial flow: infinitely wide bearings",
+        reference: "Sommerfeld, A. (1904): Zur hydrodynamischen Theorie der \
+                    Schmiermittelreibung. Z. Math. Phys. 50, 97-155",
+        doi: None,
+    },
+    Model {
+        family: "cavitation",
+        name: "gumbel",
+        description: "Full film solved, pressures below cavitation pressure cut (half Sommerfeld); \
+                      oil is not conserved",
+        reference: "Guembel, L. (1914): Das Problem der Lagerreibung. Monatsblaetter des Berliner \
+                    Bezirksvereins Deutscher Ingenieure",
+        doi: None,
+    },
+    Model {
+        family: "cavitation",
+        name: "reynolds",
+        description: "Pressure not below cavitation pressure with smooth rupture (Swift-Stieber); \
+                      oil is not conserved at reformation",
+        reference: "Swift, H. W. (1932): The stability of lubricating films in journal bearings. \
+                    Min. Proc. Inst. Civ. Eng. 233, 267-288; Stieber, W. (1933): Das \
+                    Schwimmlager. VDI-Verlag, Berlin",
+        doi: None,
+    },
+    Model {
+        family: "cavitation",
+        name: "mass-conserving",
+        description: "Jakobsson-Floberg-Olsson: film fraction transported and stored, oil conserved",
+        reference: "Jakobsson, B. and Floberg, L. (1957): The finite journal bearing, considering \
+                    vaporization. Trans. Chalmers Univ. Technol. 190; Olsson, K.-O. (1965): \
+                    Cavitation in dynamically loaded bearings. Trans. Chalmers Univ. Technol. 308",
+        doi: None,
+    },
+    Model {
+        family: "cavitation",
+        name: "film-fraction",
+        description: "Film fraction as the unknown of the ruptured film",
+        reference: "Elrod, H. G. (1981): A cavitation algorithm. J. Lubr. Technol. 103, 350-354",
+        doi: Some("10.1115/1.3251669"),
+    },
+    Model {
+        family: "inlet",
+        name: "cyclic",
+        description: "Film periodic around the full circumference",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "inlet",
+        name: "max-film-line",
+        description: "Full film at feed pressure on the line of the widest gap, moving with it",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "film_shear",
+        name: "full-width",
+        description: "The ruptured film shears like a full film",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "film_shear",
+        name: "film-fraction",
+        description: "Shear stress of the ruptured film weighted by its film fraction",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "viscosity",
+        name: "constant",
+        description: "One viscosity for the whole film",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "viscosity",
+        name: "vogel",
+        description: "Dynamic viscosity over temperature, a exp(b/(T + c))",
+        reference: "Vogel, H. (1921): Das Temperaturabhaengigkeitsgesetz der Viskositaet von \
+                    Fluessigkeiten. Phys. Z. 22, 645-646",
+        doi: None,
+    },
+    Model {
+        family: "viscosity",
+        name: "astm-d341",
+        description: "Kinematic viscosity over temperature, lg lg(nu + 0.7) = A - B lg T (Walther)",
+        reference: "ASTM D341: Standard practice for viscosity-temperature equations and charts \
+                    for liquid petroleum or hydrocarbon products",
+        doi: None,
+    },
+];
+
+/// The model of this family and name.
+#[must_use]
+pub fn find(family: &str, name: &str) -> Option<Model> {
+    MODELS
+        .iter()
+        .find(|model| model.family == family && model.name == name)
+        .copied()
+}
+
+/// The models that the rules of a bearing choose: cavitation, inlet and shear of the ruptured film.
+#[must_use]
+pub fn of_bearing(bearing: &Bearing) -> Vec<Model> {
+    let cavitation: &[&str] = match bearing.cavitation {
+        Cavitation::Gumbel => &["gumbel"],
+        Cavitation::Reynolds => &["reynolds"],
+        Cavitation::MassConserving => &["mass-conserving", "film-fraction"],
+    };
+    let inlet = match bearing.inlet {
+        Inlet::Cyclic => "cyclic",
+        Inlet::MaxFilmLine { .. } => "max-film-line",
+    };
+    let shear = match bearing.film_shear {
+        FilmShear::FullWidth => "full-width",
+        FilmShear::FilmFraction => "film-fraction",
+    };
+    cavitation
+        .iter()
+        .map(|name| ("cavitation", *name))
+        .chain([("inlet", inlet), ("film_shear", shear)])
+        .filter_map(|(family, name)| find(family, name))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_unique_within_a_family() {
+        for (index, model) in MODELS.iter().enumerate() {
+            let twin = MODELS[..index]
+                .iter()
+                .find(|other| other.family == model.family && other.name == model.name);
+            assert!(twin.is_none(), "{} {}", model.family, model.name);
+        }
+    }
+
+    #[test]
+    fn dois_are_bare_identifiers() {
+        for doi in MODELS.iter().filter_map(|model| model.doi) {
+            assert!(doi.starts_with("10.") && doi.contains('/'), "{doi}");
+        }
+    }
+}

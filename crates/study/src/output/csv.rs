@@ -1,0 +1,213 @@
+//! Tables as CSV, the unit of each column in its header, SI with angles in degrees.
+//!
+//! Numbers are written with as many digits as it takes to read the same number back; what is not
+//! finite is written `nan`, which common readers take as a number.
+
+use super::{OutputError, ResultWriter};
+use crate::results::{Body, CycleResults, FieldSnapshot, Results, degrees, status_name};
+use sommerfeld_bearing::CyclePoint;
+
+/// Writes `cycle.csv`: one row per crank angle of a load cycle.
+#[derive(Debug, Clone, Copy)]
+pub struct CycleTable;
+
+impl ResultWriter for CycleTable {
+    fn file_name(&self) -> &'static str {
+        "cycle.csv"
+    }
+
+    fn describe(&self) -> &'static str {
+        "load cycle: orbit, load, film, flows and power per crank angle"
+    }
+
+    fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
+        match &results.body {
+            Body::LoadCycle(cycle) => cycle_table(cycle).map(Some),
+            Body::Steady(_) | Body::Dimensionless(_) => Ok(None),
+        }
+    }
+}
+
+/// Writes `film.csv`: the fields cell by cell, of the steady state or of the worst crank angle.
+#[derive(Debug, Clone, Copy)]
+pub struct FieldTable;
+
+impl ResultWriter for FieldTable {
+    fn file_name(&self) -> &'static str {
+        "film.csv"
+    }
+
+    fn describe(&self) -> &'static str {
+        "film pressure, film fraction and film thickness per cell"
+    }
+
+    fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
+        let field = match &results.body {
+            Body::Steady(steady) => steady.field.as_ref(),
+            Body::LoadCycle(cycle) => cycle.worst_film.as_ref().map(|worst| &worst.field),
+            Body::Dimensionless(_) => None,
+        };
+        field.map(field_table).transpose()
+    }
+}
+
+/// A column of the cycle table: its header and its value at a point, with the radial clearance in
+/// m for what is relative to it.
+type CycleColumn = (&'static str, fn(&CyclePoint, f64) -> f64);
+
+/// The columns of the cycle table. Names and order of the first nine are fixed; more may follow.
+const CYCLE_COLUMNS: &[CycleColumn] = &[
+    ("crank_angle[deg]", |p, _| degrees(p.crank_angle)),
+    ("eccentricity_x[-]", |p, c| p.state.position[0] / c),
+    ("eccentricity_y[-]", |p, c| p.state.position[1] / c),
+    ("load_x[N]", |p, _| p.load[0]),
+    ("load_y[N]", |p, _| p.load[1]),
+    ("minimum_film_thickness[m]", |p, _| {
+        p.summary.minimum_film_thickness.value
+    }),
+    ("peak_film_pressure[Pa]", |p, _| {
+        p.summary.peak_film_pressure.value
+    }),
+    ("power_loss[W]", |p, _| p.summary.power_loss()),
+    ("side_flow[m3/s]", |p, _| {
+        p.summary.side_flow[0] + p.summary.side_flow[1]
+    }),
+    ("feed_flow[m3/s]", |p, _| p.summary.feed_flow),
+    ("storage_rate[m3/s]", |p, _| p.summary.storage_rate),
+    ("friction_power[W]", |p, _| p.summary.friction_power),
+    ("squeeze_power[W]", |p, _| p.summary.squeeze_power),
+    ("friction_torque_journal[N.m]", |p, _| {
+        p.reaction.friction_torque_journal
+    }),
+    ("friction_torque_shell[N.m]", |p, _| {
+        p.reaction.friction_torque_shell
+    }),
+    ("force_x[N]", |p, _| p.reaction.force()[0]),
+    ("force_y[N]", |p, _| p.reaction.force()[1]),
+    ("moment_x[N.m]", |p, _| p.reaction.moment()[0]),
+    ("moment_y[N.m]", |p, _| p.reaction.moment()[1]),
+    ("tilt_x[rad]", |p, _| p.state.tilt[0]),
+    ("tilt_y[rad]", |p, _| p.state.tilt[1]),
+    ("journal_speed[rad/s]", |p, _| p.state.journal_speed),
+    ("shell_speed[rad/s]", |p, _| p.state.shell_speed),
+    ("minimum_film_thickness_angle[deg]", |p, _| {
+        degrees(p.summary.minimum_film_thickness.angle)
+    }),
+    ("minimum_film_thickness_axial[m]", |p, _| {
+        p.summary.minimum_film_thickness.axial
+    }),
+    ("peak_film_pressure_angle[deg]", |p, _| {
+        degrees(p.summary.peak_film_pressure.angle)
+    }),
+    ("peak_film_pressure_axial[m]", |p, _| {
+        p.summary.peak_film_pressure.axial
+    }),
+    ("full_film_share[-]", |p, _| p.summary.full_film_share),
+    ("mass_balance_relative[-]", |p, _| {
+        p.summary.mass_balance_relative
+    }),
+    ("complementarity_violation[-]", |p, _| {
+        p.summary.complementarity_violation
+    }),
+];
+
+/// The table of a load cycle as CSV: the fixed columns, the flow of each feed, the status.
+///
+/// # Errors
+/// [`OutputError::Content`].
+pub fn cycle_table(cycle: &CycleResults) -> Result<Vec<u8>, OutputError> {
+    let feeds = cycle.feed_flows.iter().map(Vec::len).max().unwrap_or(0);
+    let mut table = Table::new(CycleTable.file_name());
+    let headers = CYCLE_COLUMNS.iter().map(|(name, _)| (*name).to_owned());
+    let feed_headers = (1..=feeds).map(|number| format!("feed_{number}_flow[m3/s]"));
+    table.row(headers.chain(feed_headers).chain(["status".to_owned()]))?;
+    for (index, point) in cycle.orbit.points.iter().enumerate() {
+        let fixed = CYCLE_COLUMNS
+            .iter()
+            .map(|(_, value)| number(value(point, cycle.bearing.radial_clearance)));
+        let flows = (0..feeds).map(|feed| {
+            let flow = cycle.feed_flows.get(index).and_then(|row| row.get(feed));
+            number(flow.map_or(f64::NAN, |feed| feed.flow))
+        });
+        let status = status_name(point.outcome).to_owned();
+        table.row(fixed.chain(flows).chain([status]))?;
+    }
+    table.finish()
+}
+
+/// The fields as CSV, one row per cell.
+///
+/// # Errors
+/// [`OutputError::Content`].
+pub fn field_table(field: &FieldSnapshot) -> Result<Vec<u8>, OutputError> {
+    let mut table = Table::new(FieldTable.file_name());
+    table.row([
+        "angle[deg]",
+        "axial[mm]",
+        "pressure[Pa]",
+        "film_fraction[-]",
+        "film_thickness[m]",
+    ])?;
+    let places = field
+        .angles
+        .iter()
+        .flat_map(|angle| field.axial.iter().map(move |axial| (angle, axial)));
+    let values = field
+        .pressure
+        .iter()
+        .zip(&field.film_fraction)
+        .zip(&field.film_thickness);
+    for ((angle, axial), ((pressure, fraction), thickness)) in places.zip(values) {
+        let axial_mm = (axial * 1e12).round() * 1e-9;
+        table.row([degrees(*angle), axial_mm, *pressure, *fraction, *thickness].map(number))?;
+    }
+    table.finish()
+}
+
+/// The shortest text that reads back as the same number.
+fn number(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:?}")
+    } else {
+        "nan".to_owned()
+    }
+}
+
+/// A CSV table in memory that names its file where it fails.
+struct Table {
+    file: &'static str,
+    writer: csv::Writer<Vec<u8>>,
+}
+
+impl Table {
+    fn new(file: &'static str) -> Self {
+        Self {
+            file,
+            writer: csv::Writer::from_writer(Vec::new()),
+        }
+    }
+
+    fn row(
+        &mut self,
+        fields: impl IntoIterator<Item = impl AsRef<[u8]>>,
+    ) -> Result<(), OutputError> {
+        let file = self.file;
+        self.writer
+            .write_record(fields)
+            .map_err(|error| failed(file, &error))
+    }
+
+    fn finish(self) -> Result<Vec<u8>, OutputError> {
+        let file = self.file;
+        self.writer
+            .into_inner()
+            .map_err(|error| failed(file, error.error()))
+    }
+}
+
+fn failed(file: &'static str, error: &dyn std::error::Error) -> OutputError {
+    OutputError::Content {
+        file,
+        reason: error.to_string(),
+    }
+}

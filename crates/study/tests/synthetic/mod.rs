@@ -1,0 +1,334 @@
+//! Made-up results that have the shape of real ones, for tests and for looking at the report.
+//!
+//! Simple formulas, no physics: orbit, film and power do not belong to the load. They exercise
+//! every figure and table, nothing more.
+
+use sommerfeld_bearing::{CyclePoint, JournalOrbit};
+use sommerfeld_film::{
+    Bearing, Carrier, Cavitation, Ends, Extreme, Feed, FeedFlow, FeedShape, FilmShear, FilmSummary,
+    Inlet, JournalState, Outcome, Reaction,
+};
+use sommerfeld_study::limits::{Limit, Quantity};
+use sommerfeld_study::models;
+use sommerfeld_study::results::{
+    Body, CycleField, CycleResults, DimensionlessResults, FieldSnapshot, Header, InputRow, Results,
+    SteadyResults,
+};
+use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
+
+/// Radial clearance of the made-up bearing, m.
+const CLEARANCE: f64 = 36e-6;
+/// Points of the made-up cycle, one per degree and the closing one.
+const POINTS: usize = 721;
+
+/// A bearing with a hole in the journal and an axial groove in the shell.
+pub fn bearing() -> Bearing {
+    Bearing {
+        diameter: 0.072,
+        width: 0.030,
+        radial_clearance: CLEARANCE,
+        feeds: vec![
+            Feed {
+                shape: FeedShape::Hole { diameter: 0.006 },
+                carried_by: Carrier::Journal,
+                angle: 0.5 * PI,
+                position: 0.0,
+                pressure: 5e5,
+            },
+            Feed {
+                shape: FeedShape::Rectangle {
+                    length: 0.010,
+                    width: 0.018,
+                },
+                carried_by: Carrier::Shell,
+                angle: 0.0,
+                position: 0.0,
+                pressure: 5e5,
+            },
+        ],
+        ambient_pressure: 0.0,
+        cavitation_pressure: 0.0,
+        ends: Ends::Air,
+        inlet: Inlet::Cyclic,
+        cavitation: Cavitation::MassConserving,
+        film_shear: FilmShear::FilmFraction,
+    }
+}
+
+/// The header of made-up results.
+pub fn header(analysis: &str, title: &str) -> Header {
+    let row = |key: &str, value: &str| InputRow {
+        key: key.into(),
+        value: value.into(),
+    };
+    let mut used = vec![models::find("film", "field").unwrap()];
+    used.extend(models::of_bearing(&bearing()));
+    used.push(models::find("viscosity", "constant").unwrap());
+    Header {
+        analysis: analysis.into(),
+        title: title.into(),
+        status: Outcome::Converged,
+        messages: Vec::new(),
+        models: used,
+        wall_time: 12.34,
+        inputs: vec![
+            row("bearing.diameter", "72 mm"),
+            row("bearing.width", "30 mm"),
+            row("bearing.diametral_clearance", "72 um"),
+            row("oil.viscosity", "8 mPa.s"),
+            row("film.model", "field"),
+            row("film.cavitation", "mass-conserving"),
+            row("film.grid", "[128, 32]"),
+        ],
+        study_text:
+            "schema = 1\ntitle = \"Synthetic data\"\n\n[bearing]\ndiameter = \"72 mm\"  # <bore>\n"
+                .into(),
+        study_hash: Some("0123456789abcdef".into()),
+        error: None,
+        limits: Vec::new(),
+    }
+}
+
+fn limits() -> [Limit; 2] {
+    let limit = |quantity, value| Limit {
+        quantity,
+        value,
+        source: "example of a house rule".into(),
+    };
+    [
+        limit(Quantity::MinimumFilmThickness, 1.5e-6),
+        limit(Quantity::PeakFilmPressure, 110e6),
+    ]
+}
+
+/// A made-up load cycle.
+pub fn load_cycle(title: &str) -> Results {
+    let points: Vec<CyclePoint> = (0..POINTS).map(cycle_point).collect();
+    let worst = points[371];
+    let feed_flows = points
+        .iter()
+        .map(|point| {
+            let flow = 0.5 * point.summary.feed_flow;
+            vec![
+                FeedFlow {
+                    flow,
+                    pressure: 5e5
+                };
+                2
+            ]
+        })
+        .collect();
+    let cycle = CycleResults {
+        bearing: bearing(),
+        orbit: JournalOrbit {
+            points,
+            cycles: 4,
+            closure: 3.2e-5,
+            steps: 2884,
+            film_solves: 9120,
+            outcome: Outcome::Converged,
+        },
+        feed_flows,
+        worst_film: Some(CycleField {
+            crank_angle: worst.crank_angle,
+            field: field(&worst.state),
+        }),
+    };
+    let mut header = header("load-cycle", title);
+    header.error = Some(BTreeMap::from([(
+        "minimum_film_thickness_m".to_owned(),
+        2.1e-8,
+    )]));
+    let mut results = Results {
+        header,
+        body: Body::LoadCycle(Box::new(cycle)),
+    };
+    results.check_limits(&limits());
+    results
+}
+
+/// The same cycle with three steps that did not converge.
+pub fn load_cycle_not_converged(title: &str) -> Results {
+    let mut results = load_cycle(title);
+    results.header.status = Outcome::NotConverged;
+    results
+        .header
+        .messages
+        .push("three steps did not converge (synthetic)".into());
+    if let Body::LoadCycle(cycle) = &mut results.body {
+        cycle.orbit.outcome = Outcome::NotConverged;
+        for index in [370, 371, 372] {
+            cycle.orbit.points[index].outcome = Outcome::NotConverged;
+        }
+    }
+    results.check_limits(&limits());
+    results
+}
+
+/// A smooth bump around a crank angle in degrees.
+fn bump(angle: f64, centre: f64, width: f64) -> f64 {
+    (-((angle - centre) / width).powi(2)).exp()
+}
+
+fn cycle_point(index: usize) -> CyclePoint {
+    let degrees = index as f64;
+    let turned = degrees.to_radians();
+    let fire = bump(degrees, 372.0, 22.0);
+    let load = [
+        -9e3 + 6e3 * turned.cos() + 95e3 * fire,
+        11e3 * turned.sin() + 2e3 * (2.0 * turned).sin() - 12e3 * fire,
+    ];
+    let size = (0.80 + 0.06 * (turned + 0.3).cos() + 0.08 * fire).min(0.99);
+    let heading = load[1].atan2(load[0]) + 0.55 - 0.3 * fire;
+    let position = [
+        size * CLEARANCE * heading.cos(),
+        size * CLEARANCE * heading.sin(),
+    ];
+    let state = JournalState {
+        position,
+        journal_speed: 209.0 + 50.0 * turned.cos(),
+        journal_angle: turned,
+        ..JournalState::default()
+    };
+    let summary = summary(&state, 20e6 + 120e6 * fire, turned);
+    CyclePoint {
+        crank_angle: turned,
+        load,
+        moment: [0.0; 2],
+        state,
+        reaction: Reaction {
+            film_force: load.map(|component| -component),
+            friction_torque_journal: summary.friction_power / state.journal_speed,
+            friction_torque_shell: 0.9 * summary.friction_power / state.journal_speed,
+            ..Reaction::default()
+        },
+        summary,
+        outcome: Outcome::Converged,
+    }
+}
+
+fn summary(state: &JournalState, peak: f64, turned: f64) -> FilmSummary {
+    let thinnest = state.line_of_centres_angle();
+    let side = 8e-6 + 3e-6 * (turned - 0.4).sin();
+    let storage = 2e-6 * (2.0 * turned).cos();
+    FilmSummary {
+        minimum_film_thickness: Extreme {
+            value: CLEARANCE - state.eccentricity(),
+            angle: thinnest,
+            axial: 0.0146,
+        },
+        peak_film_pressure: Extreme {
+            value: peak,
+            angle: thinnest - 0.25,
+            axial: 0.0,
+        },
+        side_flow: [0.5 * side; 2],
+        feed_flow: side + storage,
+        storage_rate: storage,
+        mass_balance_relative: 3e-13,
+        friction_power: 420.0 + 120.0 * turned.cos(),
+        squeeze_power: 40.0 + 30.0 * (2.0 * turned).sin(),
+        full_film_share: 0.58,
+        complementarity_violation: 2e-14,
+        cell_residual: 5e-12,
+        iterations: 3,
+        reynolds_number: 180.0,
+    }
+}
+
+/// A bump of pressure ahead of the narrowest gap, a ruptured region behind it.
+fn field(state: &JournalState) -> FieldSnapshot {
+    const AROUND: usize = 128;
+    const ALONG: usize = 32;
+    let width = bearing().width;
+    let angles: Vec<f64> = (0..AROUND)
+        .map(|i| (i as f64 + 0.5) * TAU / AROUND as f64)
+        .collect();
+    let axial: Vec<f64> = (0..ALONG)
+        .map(|j| ((j as f64 + 0.5) / ALONG as f64 - 0.5) * width)
+        .collect();
+    let mut snapshot = FieldSnapshot {
+        pressure: Vec::new(),
+        film_fraction: Vec::new(),
+        film_thickness: Vec::new(),
+        angles: angles.clone(),
+        axial: axial.clone(),
+    };
+    for angle in &angles {
+        let behind = (angle - state.line_of_centres_angle()).rem_euclid(TAU);
+        let ahead = if behind > PI { behind - TAU } else { behind };
+        for z in &axial {
+            let side = 1.0 - (2.0 * z / width).powi(2);
+            let pressure = (140e6 * (-((ahead + 0.25) / 0.3).powi(2)).exp() * side - 1e6).max(0.0);
+            let is_ruptured = (0.15..2.4).contains(&ahead);
+            let [x, y] = state.position;
+            snapshot.pressure.push(pressure);
+            snapshot
+                .film_fraction
+                .push(if is_ruptured && pressure == 0.0 {
+                    0.35 + 0.2 * ahead + 0.1 * side
+                } else {
+                    1.0
+                });
+            snapshot
+                .film_thickness
+                .push(CLEARANCE - x * angle.cos() - y * angle.sin());
+        }
+    }
+    snapshot
+}
+
+/// A made-up equilibrium with stiffness and damping.
+pub fn steady(title: &str) -> Results {
+    let eccentricity = 0.72 * CLEARANCE;
+    let state = JournalState {
+        position: [eccentricity * 0.8, eccentricity * 0.6],
+        journal_speed: 209.44,
+        ..JournalState::default()
+    };
+    let load = [10e3, 0.0];
+    let steady = SteadyResults {
+        bearing: bearing(),
+        load: Some(load),
+        reaction: Reaction {
+            film_force: [-10e3, 0.0],
+            friction_torque_journal: 0.912,
+            friction_torque_shell: 0.756,
+            ..Reaction::default()
+        },
+        summary: summary(&state, 141e6, 0.0),
+        feed_flows: vec![FeedFlow {
+            flow: 8.8e-6,
+            pressure: 5e5,
+        }],
+        sommerfeld_number: 2.763,
+        iterations: 7,
+        stiffness: Some([[8.12e8, 3.4e8], [-1.27e9, 2.05e9]]),
+        damping: Some([[1.94e6, -1.1e6], [-1.1e6, 5.2e6]]),
+        field: Some(field(&state)),
+        state,
+    };
+    let mut results = Results {
+        header: header("coefficients", title),
+        body: Body::Steady(Box::new(steady)),
+    };
+    results.check_limits(&limits());
+    results
+}
+
+/// A made-up answer to the dimensionless problem.
+pub fn dimensionless(title: &str) -> Results {
+    let mut header = header("film", title);
+    header.error = Some(BTreeMap::from([("integrals.p_cos".to_owned(), 1.5e-4)]));
+    Results {
+        header,
+        body: Body::Dimensionless(DimensionlessResults {
+            p_cos: -1.25,
+            p_sin: 2.5,
+            p_z_cos: 0.0625,
+            p_z_sin: -0.125,
+            peak: 3.5,
+        }),
+    }
+}
