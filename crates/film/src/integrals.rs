@@ -176,8 +176,7 @@ impl SolvedFilm<'_> {
             summary.side_flow[1] += self.operator.flow_axial(i, m, self.pressure);
             for j in 0..m {
                 let k = i * m + j;
-                summary.storage_rate +=
-                    self.operator.storage[k] * self.film_fraction[k] - self.operator.stored[k];
+                summary.storage_rate += self.operator.stored_flow(k, self.film_fraction[k]);
                 if self.set.cells[k] == Cell::Fed {
                     summary.feed_flow -= self.excess[k];
                 } else {
@@ -408,6 +407,11 @@ impl SolvedFilm<'_> {
         for i in 0..self.grid.n_around() {
             for j in 0..m {
                 let k = i * m + j;
+                let limited = self.film_fraction[k] < 1.0
+                    && self.operator.ruptured_storage[k] > self.operator.storage[k];
+                if limited {
+                    continue;
+                }
                 let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
                 let values = adjoints.each_ref().map(|y| y[k]);
                 accumulate(

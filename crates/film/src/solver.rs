@@ -509,6 +509,7 @@ impl Film {
 
     /// Stage 4: solves the equations of the present set. `false` where they determine no film.
     fn solve(&mut self, closure: &dyn CavitationModel) -> bool {
+        closure.admit_set(&self.operator, &mut self.set);
         closure.assemble(&self.operator, &self.set, &mut self.matrix, &mut self.rhs);
         if !self.factor.factor(&self.matrix) {
             return false;
@@ -615,7 +616,11 @@ impl Film {
                 _ => worst,
             },
         );
-        if self.flow_scale > 0.0 {
+        // Where nothing flows, round-off of the pressures is all there is to compare with.
+        let conductance = self.operator.conductance_around.iter();
+        let gross = conductance.fold(0.0_f64, |a, b| a.max(*b))
+            * self.pressure.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        if self.flow_scale > ROUND_OFF * gross {
             worst / self.flow_scale
         } else {
             0.0

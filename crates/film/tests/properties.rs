@@ -1,7 +1,10 @@
 //! Any valid bearing gives a finite film or a named outcome: random bearings with fixed seeds.
 //!
 //! `SOMMERFELD_RANDOM_BEARINGS=10000 cargo test --test properties` runs more of them.
-#![allow(clippy::unwrap_used, reason = "a test may stop at what it does not expect")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test may stop at what it does not expect"
+)]
 
 mod common;
 
@@ -75,12 +78,14 @@ fn random_bearing(random: &mut Random) -> Bearing {
         ]),
         film_shear: FilmShear::FullWidth,
     };
-    match random.pick(&[0, 1, 2, 3]) {
+    match random.pick(&[0, 1, 1, 2, 3, 4]) {
         0 => {
             bearing.inlet = Inlet::MaxFilmLine {
                 pressure: random.pick(&[0.0, 2e5]),
             };
         }
+        // No supply at all.
+        4 => {}
         count => {
             for _ in 0..count {
                 let feed = random_feed(random, &bearing);
@@ -131,12 +136,11 @@ fn random_state(random: &mut Random, bearing: &Bearing) -> JournalState {
 
 #[test]
 fn random_bearings_give_a_film_or_a_named_outcome() {
-    let count: u64 = std::env::var("SOMMERFELD_RANDOM_BEARINGS")
-        .map_or(2000, |v| v.parse().unwrap());
+    let count: u64 =
+        std::env::var("SOMMERFELD_RANDOM_BEARINGS").map_or(2000, |v| v.parse().unwrap());
     let mut failures = Vec::new();
     let (mut starved, mut most) = (0, 0);
-    let first: u64 = std::env::var("FIRST").map_or(0, |v| v.parse().unwrap());
-    for seed in first..count {
+    for seed in 0..count {
         let mut random = Random(seed);
         let bearing = random_bearing(&mut random);
         let state = random_state(&mut random, &bearing);
@@ -150,17 +154,11 @@ fn random_bearings_give_a_film_or_a_named_outcome() {
                 most = most.max(summary.iterations);
                 let [x, y] = answer.reaction.force();
                 assert!(x.is_finite() && y.is_finite(), "seed {seed}");
-                if summary.complementarity_violation > 0.0 && bearing.cavitation != Cavitation::Gumbel {
-                    let f = film.field().unwrap();
-                    let low = f.pressure.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-                    let high = f.pressure.iter().fold(-f64::INFINITY, |a, b| a.max(*b));
-                    let tl = f.film_fraction.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-                    let th = f.film_fraction.iter().fold(-f64::INFINITY, |a, b| a.max(*b));
-                    println!("{bearing:?} {state:?} p {low} {high} theta {tl} {th}");
-                }
                 assert!(
-                    summary.complementarity_violation == 0.0 || bearing.cavitation == Cavitation::Gumbel,
-                    "seed {seed}: {:e}", summary.complementarity_violation
+                    summary.complementarity_violation == 0.0
+                        || bearing.cavitation == Cavitation::Gumbel,
+                    "seed {seed}: {:e}",
+                    summary.complementarity_violation
                 );
                 if bearing.cavitation != Cavitation::Gumbel && summary.cell_residual > 1e-10 {
                     failures.push(format!("seed {seed}: residual {:e}", summary.cell_residual));
@@ -168,13 +166,22 @@ fn random_bearings_give_a_film_or_a_named_outcome() {
             }
             other => failures.push(format!(
                 "seed {seed}: {other:?} after {} of {cells:?} {:?} {:?} feeds {}",
-                summary.iterations, bearing.cavitation, bearing.ends, bearing.feeds.len()
+                summary.iterations,
+                bearing.cavitation,
+                bearing.ends,
+                bearing.feeds.len()
             )),
         }
     }
-    println!("{count} bearings, {starved} starved, at most {most} updates, {} failures", failures.len());
+    println!(
+        "{count} bearings, {starved} starved, at most {most} updates, {} failures",
+        failures.len()
+    );
     for failure in &failures {
         println!("{failure}");
     }
-    assert!(failures.len() as u64 * 200 <= count, "more than 0.5 % failed");
+    assert!(
+        failures.len() as u64 * 200 <= count,
+        "more than 0.5 % failed"
+    );
 }
