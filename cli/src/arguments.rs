@@ -19,6 +19,8 @@ pub struct Arguments {
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Run a study and write its results
+    Run(crate::run::RunArguments),
     /// Read and check a study file without running it
     Check {
         /// The study file

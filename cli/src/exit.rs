@@ -8,10 +8,6 @@ pub enum Exit {
     /// Done, and converged.
     Done,
     /// Finished, but something did not converge or a case failed.
-    #[allow(
-        dead_code,
-        reason = "an outcome of the run command, which is not wired yet"
-    )]
     NotConverged,
     /// The input was refused, or the arguments.
     Refused,

@@ -5,9 +5,7 @@
 mod arguments;
 mod commands;
 mod exit;
-#[allow(dead_code, reason = "serves the run command, which is not wired yet")]
 mod progress;
-#[allow(dead_code, reason = "serves the run command, which is not wired yet")]
 mod run;
 
 use arguments::{Arguments, Command};
@@ -32,6 +30,7 @@ fn main() -> ExitCode {
         }
     };
     let exit = match &arguments.command {
+        Command::Run(arguments) => run::run(arguments),
         Command::Check { file } => commands::check(file),
         Command::New {
             template,

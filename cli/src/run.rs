@@ -1,12 +1,11 @@
-//! `sommerfeld run`: what surrounds a run. The run itself is handed in, so that this file knows
-//! neither options nor results of the library.
+//! `sommerfeld run`: reads a study, runs it, tells what was found and where it lies.
 
 use crate::commands;
 use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
-use sommerfeld_study::{ProgressEvent, Study};
-use std::ops::ControlFlow;
+use sommerfeld_study::results::status_name;
+use sommerfeld_study::{Outcome, RunError, RunSummary};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -26,14 +25,8 @@ pub struct RunArguments {
     pub threads: Option<u16>,
 }
 
-/// Answers an event of the run with whether to go on.
-pub type Callback<'c> = &'c mut dyn FnMut(ProgressEvent) -> ControlFlow<()>;
-
-/// Checks the study, runs it by `runner(study, results directory, progress)` and tells how it ended.
-pub fn run(
-    arguments: &RunArguments,
-    runner: impl FnOnce(&Study, &Path, Callback<'_>) -> Exit,
-) -> Exit {
+/// Checks the study, runs it and tells how it ended.
+pub fn run(arguments: &RunArguments) -> Exit {
     if arguments.verify {
         eprintln!(
             "error: --verify is not built yet in version {}",
@@ -51,13 +44,46 @@ pub fn run(
         .unwrap_or_else(|| default_directory(&arguments.file));
     let stop = stop_flag();
     let mut progress = Progress::new(stop.clone());
-    let exit = runner(&study, &out, &mut |event| progress.show(&event));
+    let ended = sommerfeld_study::run(&study, &out, &mut |event| progress.show(&event));
     progress.finish();
-    if exit != Exit::Done && stop.load(Ordering::Relaxed) {
-        eprintln!("interrupted; the same command resumes in {}", out.display());
-        return Exit::Interrupted;
+    match ended {
+        Ok(summary) => {
+            tell(&summary, &out);
+            if stop.load(Ordering::Relaxed) && summary.results.header.status != Outcome::Converged {
+                eprintln!("interrupted: run the same command again to finish it");
+                Exit::Interrupted
+            } else if summary.results.header.status == Outcome::Converged {
+                Exit::Done
+            } else {
+                Exit::NotConverged
+            }
+        }
+        Err(RunError::Film(error)) => {
+            eprintln!("error: {}: {error}", arguments.file.display());
+            Exit::Refused
+        }
+        Err(RunError::Output(error)) => {
+            eprintln!("error: {error}");
+            Exit::MachineFailed
+        }
     }
-    exit
+}
+
+/// Status, key figures and the place of the report, a few lines.
+fn tell(summary: &RunSummary, out: &Path) {
+    let header = &summary.results.header;
+    println!("{}: {}", header.analysis, status_name(header.status));
+    for message in &header.messages {
+        println!("  {message}");
+    }
+    for (name, value) in summary.results.key_figures() {
+        println!("  {name:<24} {value}");
+    }
+    for check in &header.limits {
+        println!("  {check}");
+    }
+    println!("results in {}", out.display());
+    println!("report  in {}", out.join("report.html").display());
 }
 
 /// Beside the study, named after it.

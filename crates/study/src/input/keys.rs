@@ -149,7 +149,7 @@ pub const KEYS: &[Key] = &[
     key("limits", Table, Optional, PHYSICAL, "Design limits, shown with OK or exceeded.", ""),
     key("limits.minimum_film_thickness", Limit(Dimension::Length, Range::above(0.0, 10.0, "mm")), Optional, PHYSICAL, "Smallest film thickness allowed.", "{ value = \"1 um\", source = \"house rule\" }"),
     key("limits.peak_film_pressure", Limit(Dimension::Pressure, Range::above(0.0, 1e5, "bar")), Optional, PHYSICAL, "Largest film pressure allowed.", "{ value = \"200 MPa\", source = \"supplier\" }"),
-    key("limits.specific_load", Limit(Dimension::Pressure, Range::above(0.0, 1e5, "bar")), Optional, PHYSICAL, "Largest load over diameter times width allowed.", "{ value = \"60 MPa\", source = \"supplier\" }"),
+    key("limits.maximum_specific_load", Limit(Dimension::Pressure, Range::above(0.0, 1e5, "bar")), Optional, PHYSICAL, "Largest load over diameter times width allowed.", "{ value = \"60 MPa\", source = \"supplier\" }"),
     key("limits.power_loss", Limit(Dimension::Power, Range::above(0.0, 1e9, "W")), Optional, PHYSICAL, "Largest power lost in the film allowed (mean over a cycle).", "{ value = \"1 kW\", source = \"heat budget\" }"),
 
     planned("engine", "An engine, from layout and gas pressure to the loads of its bearings."),

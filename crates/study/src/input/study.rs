@@ -2,7 +2,8 @@
 
 use super::error::InputError;
 use sommerfeld_bearing::LoadCycle;
-use sommerfeld_film::{Bearing, Cavitation, Ends, Inlet, JournalState};
+use sommerfeld_film::dimensionless::DimensionlessFilm;
+use sommerfeld_film::{Bearing, JournalState};
 use sommerfeld_oil::Lubricant;
 
 /// A study file that was read and checked.
@@ -71,7 +72,7 @@ pub enum Subject {
     /// A bearing in SI.
     Bearing(BearingCase),
     /// The dimensionless film problem.
-    Dimensionless(DimensionlessCase),
+    Dimensionless(DimensionlessFilm),
 }
 
 /// A bearing with its oil and what it has to do.
@@ -137,50 +138,6 @@ pub struct CycleDuty {
     pub maximum_cycles: usize,
     /// The orbit is closed when two cycles differ by less, over the radial clearance.
     pub closure_tolerance: f64,
-}
-
-/// The dimensionless film problem: `H = 1 + eps cos(phi) - gamma (1-eps) Z cos(phi) - delta Z
-/// sin(phi)`, right side `wedge * 6 dH/dphi + squeeze * 12 cos(phi)`; the gap is open everywhere.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DimensionlessCase {
-    /// Diameter over width.
-    pub d_over_b: f64,
-    /// Relative eccentricity eps.
-    pub relative_eccentricity: f64,
-    /// Relative tilt gamma in the plane of the narrowest gap.
-    pub tilt_gamma: f64,
-    /// Relative tilt delta across it, unscaled.
-    pub tilt_delta: f64,
-    /// Share of the wedge.
-    pub wedge: f64,
-    /// Share of the squeeze.
-    pub squeeze: f64,
-    /// Closure for the ruptured film.
-    pub cavitation: Cavitation,
-    /// Where the film starts; the pressure of an inlet line is 0.
-    pub inlet: Inlet,
-    /// What enters at the ends.
-    pub ends: Ends,
-}
-
-impl DimensionlessCase {
-    /// Smallest relative gap and its place `(phi, Z)`. The gap is linear in Z, so it lies at an
-    /// edge; Z is 0 where all Z are alike.
-    #[must_use]
-    pub fn minimum_gap(&self) -> (f64, [f64; 2]) {
-        let eps = self.relative_eccentricity;
-        let at_edge = |z: f64| {
-            let along = eps - self.tilt_gamma * (1.0 - eps) * z;
-            let across = -self.tilt_delta * z;
-            let turn = (-across).atan2(-along).rem_euclid(std::f64::consts::TAU);
-            (1.0 - along.hypot(across), [turn, z])
-        };
-        if self.tilt_gamma * (1.0 - eps) == 0.0 && self.tilt_delta == 0.0 {
-            return at_edge(0.0);
-        }
-        let (front, back) = (at_edge(-1.0), at_edge(1.0));
-        if front.0 < back.0 { front } else { back }
-    }
 }
 
 /// How the film is modelled.

@@ -5,9 +5,10 @@ use crate::input::files::{TABLE_CAP, read_text};
 use crate::input::load_file::{CycleSettings, read_load_table};
 use crate::input::schema::Mode;
 use crate::input::study::{
-    BearingCase, CycleDuty, DimensionlessCase, Duty, SteadyLoad, Subject, TiltCondition,
+    BearingCase, CycleDuty, Duty, SteadyLoad, Subject, TiltCondition,
 };
 use crate::input::values::Value;
+use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
 use std::path::Path;
 
@@ -37,7 +38,7 @@ impl Checker<'_> {
     }
 
     /// The dimensionless case, its gap open everywhere.
-    fn dimensionless(&mut self) -> Option<DimensionlessCase> {
+    fn dimensionless(&mut self) -> Option<DimensionlessFilm> {
         let model = self.film_model()?;
         if !model.is_field() {
             let error = self
@@ -47,7 +48,7 @@ impl Checker<'_> {
         }
         let rules = self.film_rules()?;
         let number = |name: &str| self.number(&format!("operation.{name}"));
-        let case = DimensionlessCase {
+        let case = DimensionlessFilm {
             d_over_b: number("d_over_b")?,
             relative_eccentricity: number("relative_eccentricity")?,
             tilt_gamma: number("tilt_gamma")?,
@@ -56,14 +57,14 @@ impl Checker<'_> {
             squeeze: number("squeeze")?,
             cavitation: rules.cavitation,
             inlet: rules.inlet,
-            ends: rules.ends,
         };
-        let (gap, [phi, z]) = case.minimum_gap();
+        let narrowest = case.narrowest_gap();
+        let (gap, z) = (narrowest.relative_film_thickness, narrowest.z);
         // A gap of round-off size is closed for every solver.
         if gap <= 1e-12 {
             let message = format!(
                 "the gap closes at phi = {:.2} deg, Z = {z} (H = {:.4})",
-                phi.to_degrees(),
+                narrowest.phi_deg,
                 gap + 0.0
             );
             let path = ["operation.tilt_gamma", "operation.tilt_delta"]
