@@ -122,13 +122,15 @@ impl DimensionlessFilm {
                 z,
             }
         };
-        [at(-1.0), at(1.0)].into_iter().fold(at(0.0), |narrowest, edge| {
-            if edge.relative_film_thickness < narrowest.relative_film_thickness {
-                edge
-            } else {
-                narrowest
-            }
-        })
+        [at(-1.0), at(1.0)]
+            .into_iter()
+            .fold(at(0.0), |narrowest, edge| {
+                if edge.relative_film_thickness < narrowest.relative_film_thickness {
+                    edge
+                } else {
+                    narrowest
+                }
+            })
     }
 
     /// The paper's integrals from the film's answer.

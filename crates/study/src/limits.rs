@@ -134,9 +134,17 @@ impl std::fmt::Display for LimitCheck {
             Verdict::Exceeded => "EXCEEDED",
             Verdict::NotEvaluated => "not evaluated",
         };
-        let Limit { quantity, value, source } = &self.limit;
+        let Limit {
+            quantity,
+            value,
+            source,
+        } = &self.limit;
         let unit = quantity.unit_suffix();
-        write!(f, "limit {}_{unit} {value:e} ({source}): {verdict}", quantity.key())
+        write!(
+            f,
+            "limit {}_{unit} {value:e} ({source}): {verdict}",
+            quantity.key()
+        )
     }
 }
 

@@ -244,9 +244,18 @@ impl SteadyResults {
         let film = &self.summary;
         let side_flow = film.side_flow[0] + film.side_flow[1];
         vec![
-            ("relative eccentricity", format!("{:.5}", self.relative_eccentricity())),
-            ("minimum film thickness", micrometres(film.minimum_film_thickness.value)),
-            ("peak film pressure", megapascals(film.peak_film_pressure.value)),
+            (
+                "relative eccentricity",
+                format!("{:.5}", self.relative_eccentricity()),
+            ),
+            (
+                "minimum film thickness",
+                micrometres(film.minimum_film_thickness.value),
+            ),
+            (
+                "peak film pressure",
+                megapascals(film.peak_film_pressure.value),
+            ),
             ("power loss", format!("{:.1} W", film.power_loss())),
             ("side flow", cubic_centimetres(side_flow)),
         ]
@@ -286,11 +295,17 @@ impl CycleResults {
         let mut figures = Vec::new();
         if let Some(point) = self.minimum_film_thickness() {
             let value = point.summary.minimum_film_thickness.value;
-            figures.push(("minimum film thickness", format!("{} {}", micrometres(value), at(point))));
+            figures.push((
+                "minimum film thickness",
+                format!("{} {}", micrometres(value), at(point)),
+            ));
         }
         if let Some(point) = self.peak_film_pressure() {
             let value = point.summary.peak_film_pressure.value;
-            figures.push(("peak film pressure", format!("{} {}", megapascals(value), at(point))));
+            figures.push((
+                "peak film pressure",
+                format!("{} {}", megapascals(value), at(point)),
+            ));
         }
         if figures.is_empty() {
             return figures;
@@ -300,7 +315,10 @@ impl CycleResults {
         figures.push(("mean power loss", format!("{power:.1} W")));
         figures.push(("mean side flow", cubic_centimetres(flow)));
         let orbit = &self.orbit;
-        figures.push(("cycles", format!("{} (closure {:.1e})", orbit.cycles, orbit.closure)));
+        figures.push((
+            "cycles",
+            format!("{} (closure {:.1e})", orbit.cycles, orbit.closure),
+        ));
         figures
     }
 

@@ -113,7 +113,9 @@ fn header(study: &Study) -> Header {
 }
 
 fn models_of(study: &Study) -> Vec<Model> {
-    let mut used: Vec<Model> = models::find("film", study.film.model.name()).into_iter().collect();
+    let mut used: Vec<Model> = models::find("film", study.film.model.name())
+        .into_iter()
+        .collect();
     match &study.subject {
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
         Subject::Bearing(case) => {
@@ -137,7 +139,11 @@ fn input_rows(text: &str) -> Vec<InputRow> {
         match value {
             toml::Value::Table(table) => {
                 for (key, value) in table {
-                    let path = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
+                    let path = if prefix.is_empty() {
+                        key.clone()
+                    } else {
+                        format!("{prefix}.{key}")
+                    };
                     walk(&path, value, rows);
                 }
             }
@@ -177,7 +183,11 @@ fn input_rows(text: &str) -> Vec<InputRow> {
 fn film_of(case: &BearingCase, settings: &FilmSettings) -> Result<Box<dyn FilmForce>, FilmError> {
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
     Ok(match settings.model {
-        FilmModel::Field => Box::new(FilmSolver::new(&case.bearing, &case.lubricant, settings.grid)?),
+        FilmModel::Field => Box::new(FilmSolver::new(
+            &case.bearing,
+            &case.lubricant,
+            settings.grid,
+        )?),
         FilmModel::ShortBearing => Box::new(ShortBearingFilm::new(&case.bearing, viscosity)?),
         FilmModel::Mobility => Box::new(MobilityFilm::new(&case.bearing, viscosity)?),
         FilmModel::LongBearing => Box::new(LongBearingFilm::new(&case.bearing, viscosity)?),
@@ -198,7 +208,9 @@ fn solve_paper(
 ) -> Result<Body, FilmError> {
     let solution = solve_dimensionless(film, settings.grid)?;
     note_outcome(solution.outcome, header);
-    header.models.extend(models::find("extrapolation", "richardson"));
+    header
+        .models
+        .extend(models::find("extrapolation", "richardson"));
     let integrals = solution.integrals;
     Ok(Body::Dimensionless(DimensionlessResults {
         p_cos: integrals.p_cos,
@@ -215,9 +227,11 @@ fn solve_state(
     settings: &FilmSettings,
     header: &mut Header,
 ) -> Result<Body, FilmError> {
-    let follows = settings.model.is_field() && matches!(case.bearing.inlet, Inlet::MaxFilmLine { .. });
+    let follows =
+        settings.model.is_field() && matches!(case.bearing.inlet, Inlet::MaxFilmLine { .. });
     let mut film: Box<dyn FilmForce> = if follows {
-        let grading = (state.eccentricity() / case.bearing.radial_clearance - 0.05).clamp(0.0, 0.95);
+        let grading =
+            (state.eccentricity() / case.bearing.radial_clearance - 0.05).clamp(0.0, 0.95);
         let (bearing, oil) = (&case.bearing, &case.lubricant);
         Box::new(FilmSolver::following(bearing, oil, settings.grid, grading)?)
     } else {
@@ -226,7 +240,14 @@ fn solve_state(
     let answer = film.react(state, Step::Steady, &conditions(case))?;
     note_outcome(answer.outcome, header);
     let iterations = film.summary().iterations;
-    Ok(steady(case, state, None, &answer, film.as_ref(), iterations))
+    Ok(steady(
+        case,
+        state,
+        None,
+        &answer,
+        film.as_ref(),
+        iterations,
+    ))
 }
 
 fn solve_load(
@@ -261,7 +282,14 @@ fn solve_load(
         outcome: found.outcome,
     };
     let updates = found.film_updates;
-    let mut body = steady(case, &found.state, Some(load.load), &answer, film.as_ref(), updates);
+    let mut body = steady(
+        case,
+        &found.state,
+        Some(load.load),
+        &answer,
+        film.as_ref(),
+        updates,
+    );
     if let (Analysis::Coefficients, Body::Steady(steady)) = (study.analysis, &mut body) {
         let coefficients = Coefficients::from_tangent(&found.tangent);
         steady.stiffness = Some(coefficients.translation_stiffness());
@@ -298,7 +326,12 @@ fn steady(
 }
 
 /// So = F psi^2/(B D eta omega) with omega the sum of both speeds.
-fn sommerfeld_number(bearing: &Bearing, load: [f64; 2], viscosity: f64, state: &JournalState) -> f64 {
+fn sommerfeld_number(
+    bearing: &Bearing,
+    load: [f64; 2],
+    viscosity: f64,
+    state: &JournalState,
+) -> f64 {
     let speed = (state.journal_speed + state.shell_speed).abs();
     load[0].hypot(load[1]) * bearing.relative_clearance().powi(2)
         / (bearing.width * bearing.diameter * viscosity * speed)
@@ -330,7 +363,11 @@ fn solve_cycle(
         journal_speed: duty.cycle.engine_speed,
         ..JournalState::default()
     };
-    if film.linearise(&centred, Step::Steady, &conditions(case))?.outcome == Outcome::Starved {
+    if film
+        .linearise(&centred, Step::Steady, &conditions(case))?
+        .outcome
+        == Outcome::Starved
+    {
         note_outcome(Outcome::Starved, header);
         return Ok(Body::LoadCycle(Box::new(no_orbit)));
     }
@@ -352,7 +389,10 @@ fn solve_cycle(
     )?;
     note_outcome(orbit.outcome, header);
     if watch.stopped {
-        header.messages.insert(0, "interrupted: the orbit is that of an unfinished run".to_owned());
+        header.messages.insert(
+            0,
+            "interrupted: the orbit is that of an unfinished run".to_owned(),
+        );
     }
     let mut feed_flows = watch.feed_flows;
     // The observer also saw the start of a cycle, which is not a point of its own.

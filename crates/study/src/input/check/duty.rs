@@ -4,9 +4,7 @@ use super::Checker;
 use crate::input::files::{TABLE_CAP, read_text};
 use crate::input::load_file::{CycleSettings, read_load_table};
 use crate::input::schema::Mode;
-use crate::input::study::{
-    BearingCase, CycleDuty, Duty, SteadyLoad, Subject, TiltCondition,
-};
+use crate::input::study::{BearingCase, CycleDuty, Duty, SteadyLoad, Subject, TiltCondition};
 use crate::input::values::Value;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
