@@ -1,5 +1,7 @@
 //! Bearings that the tests share.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::panic)]
+
+pub mod planar;
 
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, Inlet,
