@@ -84,3 +84,14 @@ pub fn unit_bearing(width_ratio: f64) -> Bearing {
 pub fn unit_oil() -> Lubricant {
     Lubricant::constant(1e-6, 850.0)
 }
+
+/// Order by least squares of `ln error` over `ln cells`, from `(cells, error)`.
+pub fn least_squares_order(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logs: Vec<(f64, f64)> = points.iter().map(|(c, e)| (c.ln(), e.ln())).collect();
+    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / n;
+    let (x, y) = (mean(|l| l.0), mean(|l| l.1));
+    let covariance: f64 = logs.iter().map(|l| (l.0 - x) * (l.1 - y)).sum();
+    let variance: f64 = logs.iter().map(|l| (l.0 - x).powi(2)).sum();
+    -covariance / variance
+}
