@@ -234,6 +234,36 @@ fn mass_conserving_pocket() {
     assert!(worst < 1e-3, "{worst:e}");
 }
 
+/// A groove across the slider holds its pressure up to its edges: parallel plates leak from it by
+/// straight lines of pressure, exactly.
+#[test]
+fn groove_holds_its_pressure_to_its_edges() {
+    for n in [10, 20, 40] {
+        let mut film = Planar::new(
+            even_faces(0.0, 1.0, n),
+            Around::Pressures([0.0; 2]),
+            Box::new(Reynolds),
+        );
+        for (cell, x) in film.grid.around.iter().enumerate() {
+            if *x > 0.4 && *x < 0.6 {
+                film.set.cells[cell] = Cell::Fed;
+                film.set.fed_pressure[cell] = 1.0;
+            }
+        }
+        let gap = Gap::from_profile(&film.grid, |_, _| 1.0, |_| 0.0);
+        film.solve(&gap, 0.0, Storage::Rate);
+        let fed: f64 = film
+            .excess
+            .iter()
+            .zip(&film.set.cells)
+            .filter(|(_, cell)| **cell == Cell::Fed)
+            .map(|(excess, _)| -excess)
+            .sum();
+        assert!((fed - 2.0 / 0.4).abs() < 1e-12, "{n}: {fed}");
+        assert!((film.integral(|_| 1.0) - 0.6).abs() < 1e-12, "{n}");
+    }
+}
+
 struct Squeeze {
     rupture_start: f64,
     boundary_minimum: [f64; 2],

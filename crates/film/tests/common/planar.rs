@@ -49,6 +49,8 @@ impl Planar {
     /// Solves for `gap`; returns the number of updates.
     pub fn solve(&mut self, gap: &Gap, mean_speed: f64, storage: Storage<'_>) -> usize {
         self.operator.update(&self.grid, gap, mean_speed, storage);
+        self.operator
+            .hold_feeds_to_edges(&self.grid, &self.set.cells);
         let n = self.grid.n_around();
         let mut x = vec![0.0; n];
         for update in 1..=30 + 2 * n {
