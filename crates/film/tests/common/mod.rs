@@ -2,6 +2,7 @@
 #![allow(dead_code, clippy::panic)]
 
 pub mod planar;
+pub mod recomputed;
 
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, Inlet,
