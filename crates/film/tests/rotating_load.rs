@@ -2,7 +2,7 @@
 //! the journal speed times (1 - 2 nu), if no hole or groove tells one angle from another: the turning
 //! of the line of centres acts like a speed of both surfaces. Film content is dragged along by one
 //! and stored by the other, so only a scheme that does both consistently agrees.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod common;
 
