@@ -1,6 +1,20 @@
 //! One slide bearing over time: equilibrium under a load, the journal orbit over a load cycle,
 //! stiffness and damping. Sees the film only through [`sommerfeld_film::FilmForce`].
 
+mod balance;
+pub mod coefficients;
+mod cycle_table;
+mod dense;
+pub mod equilibrium;
 pub mod load_cycle;
+pub mod orbit;
+pub mod stability;
+mod step_control;
+mod time_step;
 
+pub use balance::IterationRow;
+pub use coefficients::Coefficients;
+pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 pub use load_cycle::{CyclePoint, JournalOrbit, LoadCycle, LoadPoint};
+pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
+pub use stability::{WhirlThreshold, whirl_threshold};

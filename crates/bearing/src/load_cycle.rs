@@ -1,7 +1,7 @@
 //! The load a machine puts on the journal over one period, and the journal orbit that answers it.
 
 use serde::{Deserialize, Serialize};
-use sommerfeld_film::{FilmSummary, JournalState, Outcome, Reaction};
+use sommerfeld_film::{Extreme, FilmSummary, JournalState, Outcome, Reaction};
 
 /// One row of a load table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -68,4 +68,68 @@ pub struct JournalOrbit {
     pub film_solves: usize,
     /// Converged only if every step and the closure did.
     pub outcome: Outcome,
+}
+
+impl JournalOrbit {
+    /// Mean over the cycle of any value of its points (trapezoidal rule; equal crank steps).
+    #[must_use]
+    pub fn mean(&self, value: impl Fn(&CyclePoint) -> f64) -> f64 {
+        let pairs = self.points.windows(2);
+        let count = pairs.len();
+        if count == 0 {
+            return self.points.first().map_or(f64::NAN, value);
+        }
+        let sum: f64 = pairs
+            .map(|pair| 0.5 * (value(&pair[0]) + value(&pair[1])))
+            .sum();
+        sum / count as f64
+    }
+
+    /// Mean power lost in the film, W: friction and squeeze together.
+    #[must_use]
+    pub fn mean_power_loss(&self) -> f64 {
+        self.mean(|point| point.summary.power_loss())
+    }
+
+    /// Mean friction power, W.
+    #[must_use]
+    pub fn mean_friction_power(&self) -> f64 {
+        self.mean(|point| point.summary.friction_power)
+    }
+
+    /// Mean flow out of both bearing ends, m3/s.
+    #[must_use]
+    pub fn mean_side_flow(&self) -> f64 {
+        self.mean(|point| point.summary.side_flow[0] + point.summary.side_flow[1])
+    }
+
+    /// Mean flow in through all feeds, m3/s.
+    #[must_use]
+    pub fn mean_feed_flow(&self) -> f64 {
+        self.mean(|point| point.summary.feed_flow)
+    }
+
+    /// Mean eccentricity, m.
+    #[must_use]
+    pub fn mean_eccentricity(&self) -> f64 {
+        self.mean(|point| point.state.eccentricity())
+    }
+
+    /// Smallest film thickness over the cycle, m, with its place and its crank angle (rad).
+    #[must_use]
+    pub fn minimum_film_thickness(&self) -> Option<(Extreme, f64)> {
+        self.points
+            .iter()
+            .map(|point| (point.summary.minimum_film_thickness, point.crank_angle))
+            .min_by(|a, b| a.0.value.total_cmp(&b.0.value))
+    }
+
+    /// Largest film pressure over the cycle, Pa (gauge), with its place and its crank angle (rad).
+    #[must_use]
+    pub fn peak_film_pressure(&self) -> Option<(Extreme, f64)> {
+        self.points
+            .iter()
+            .map(|point| (point.summary.peak_film_pressure, point.crank_angle))
+            .max_by(|a, b| a.0.value.total_cmp(&b.0.value))
+    }
 }

@@ -55,14 +55,14 @@ pub struct DimensionlessIntegrals {
     pub peak: f64,
 }
 
-/// Place where a dimensionless gap closes.
+/// The narrowest place of a dimensionless gap.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClosedGap {
-    /// Smallest H, not positive.
+pub struct NarrowestGap {
+    /// H there; not positive where the gap closes.
     pub relative_film_thickness: f64,
     /// Angle from the widest gap, degrees.
     pub phi_deg: f64,
-    /// Relative axial coordinate.
+    /// Relative axial coordinate; 0 where all are alike.
     pub z: f64,
 }
 
@@ -109,22 +109,28 @@ impl DimensionlessFilm {
         }
     }
 
-    /// Where the gap closes; `None` while it is open everywhere.
+    /// The narrowest place of the gap: it is linear in Z, so it lies at an edge.
     #[must_use]
-    pub fn closed_gap(&self) -> Option<ClosedGap> {
+    pub fn narrowest_gap(&self) -> NarrowestGap {
         let eps = self.relative_eccentricity;
-        [-1.0_f64, 1.0]
+        let at = |z: f64| {
+            let cos = eps - self.tilt_gamma * (1.0 - eps) * z;
+            let sin = -self.tilt_delta * z;
+            NarrowestGap {
+                relative_film_thickness: 1.0 - cos.hypot(sin),
+                phi_deg: (-sin).atan2(-cos).to_degrees().rem_euclid(360.0),
+                z,
+            }
+        };
+        [at(-1.0), at(1.0)]
             .into_iter()
-            .map(|z| {
-                let cos = eps - self.tilt_gamma * (1.0 - eps) * z;
-                let sin = -self.tilt_delta * z;
-                ClosedGap {
-                    relative_film_thickness: 1.0 - cos.hypot(sin),
-                    phi_deg: (-sin).atan2(-cos).to_degrees().rem_euclid(360.0),
-                    z,
+            .fold(at(0.0), |narrowest, edge| {
+                if edge.relative_film_thickness < narrowest.relative_film_thickness {
+                    edge
+                } else {
+                    narrowest
                 }
             })
-            .find(|gap| gap.relative_film_thickness <= 0.0)
     }
 
     /// The paper's integrals from the film's answer.

@@ -15,6 +15,7 @@ use crate::force::{Extreme, FilmSummary, Reaction, Tangent};
 use crate::gap::{AngleTables, Gap, Waviness};
 use crate::grid::Grid;
 use crate::journal_state::JournalState;
+use crate::linear::Lanes;
 use crate::reynolds::{Axial, Cell, Operator, Storage};
 
 /// Units that turn the film's relative quantities into SI.
@@ -176,8 +177,7 @@ impl SolvedFilm<'_> {
             summary.side_flow[1] += self.operator.flow_axial(i, m, self.pressure);
             for j in 0..m {
                 let k = i * m + j;
-                summary.storage_rate +=
-                    self.operator.storage[k] * self.film_fraction[k] - self.operator.stored[k];
+                summary.storage_rate += self.operator.stored_flow(k, self.film_fraction[k]);
                 if self.set.cells[k] == Cell::Fed {
                     summary.feed_flow -= self.excess[k];
                 } else {
@@ -277,12 +277,11 @@ impl SolvedFilm<'_> {
     }
 
     /// Derivatives of force and moment for this set, by the adjoints of the four outputs:
-    /// `dF/dq = -y . dR/dq` with the balance R and `M^T y = dF/dP`. `adjoints[output]` per cell,
-    /// already zero where the equation is not a balance.
+    /// `dF/dq = -y . dR/dq` with the balance R and `M^T y = dF/dP`. `adjoints` per cell, one lane per
+    /// output, already zero where the equation is not a balance.
     #[must_use]
-    pub fn tangent(&self, adjoints: &[Vec<f64>; 4], storage: Storage<'_>) -> Tangent {
-        let mut by_position = [[0.0; 4]; 4];
-        let mut by_rate = [[0.0; 4]; 4];
+    pub fn tangent(&self, adjoints: &[Lanes], storage: Storage<'_>) -> Tangent {
+        let (mut by_position, mut by_rate) = (Sensitivity::default(), Sensitivity::default());
         self.sensitivity_around(adjoints, &mut by_position);
         self.sensitivity_axial(adjoints, &mut by_position);
         match storage {
@@ -291,29 +290,13 @@ impl SolvedFilm<'_> {
                 self.sensitivity_storage(adjoints, 1.0 / duration, &mut by_position);
             }
         }
-        let force = self.units.pressure * self.units.area;
-        let outputs = [
-            force,
-            force,
-            force * self.units.radius,
-            force * self.units.radius,
-        ];
-        let per_length = 1.0 / self.units.clearance;
-        let per_tilt = self.units.radius / self.units.clearance;
-        let inputs = [per_length, per_length, per_tilt, per_tilt];
-        for (row, output) in outputs.iter().enumerate() {
-            for (column, input) in inputs.iter().enumerate() {
-                by_position[row][column] *= output * input;
-                by_rate[row][column] *= output * input;
-            }
-        }
         Tangent {
-            by_position,
-            by_rate,
+            by_position: by_position.in_units(&self.units),
+            by_rate: by_rate.in_units(&self.units),
         }
     }
 
-    fn sensitivity_around(&self, adjoints: &[Vec<f64>; 4], by: &mut [[f64; 4]; 4]) {
+    fn sensitivity_around(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let last = if self.operator.west(0, 0).is_some() {
             n
@@ -321,6 +304,7 @@ impl SolvedFilm<'_> {
             n + 1
         };
         for i in 0..last {
+            let trig = self.angles.faces[i];
             for j in 0..m {
                 let face = i * m + j;
                 let before = if i == 0 {
@@ -344,39 +328,36 @@ impl SolvedFilm<'_> {
                 let conducted = 3.0 * self.operator.conductance_around[face];
                 let by_height = (conducted * (p_before - p_behind) + transport * upstream)
                     / self.gap.around_transport[face];
-                let value = |y: &[f64], cell: Option<usize>| cell.map_or(0.0, |k| y[k]);
-                let drops = adjoints
-                    .each_ref()
-                    .map(|y| value(y, before) - value(y, behind));
-                accumulate(
-                    by,
-                    drops,
+                let value = |cell: Option<usize>| cell.map_or([0.0; 4], |k| adjoints[k]);
+                by.add(
+                    value(before),
+                    value(behind),
                     by_height,
-                    self.angles.faces[i],
+                    trig,
                     self.grid.axial[j],
                 );
             }
         }
     }
 
-    fn sensitivity_axial(&self, adjoints: &[Vec<f64>; 4], by: &mut [[f64; 4]; 4]) {
+    fn sensitivity_axial(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         for i in 0..n {
+            let trig = self.angles.centres[i];
             for j in 0..=m {
                 let face = i * (m + 1) + j;
                 let by_height = 3.0 * self.set_flow_axial(i, j) / self.gap.axial[face];
-                let drops = adjoints.each_ref().map(|y| {
-                    let before = if j == 0 { 0.0 } else { y[i * m + j - 1] };
-                    let behind = if j == m { 0.0 } else { y[i * m + j] };
-                    before - behind
-                });
-                accumulate(
-                    by,
-                    drops,
-                    by_height,
-                    self.angles.centres[i],
-                    self.grid.axial_faces[j],
-                );
+                let before = if j == 0 {
+                    [0.0; 4]
+                } else {
+                    adjoints[i * m + j - 1]
+                };
+                let behind = if j == m {
+                    [0.0; 4]
+                } else {
+                    adjoints[i * m + j]
+                };
+                by.add(before, behind, by_height, trig, self.grid.axial_faces[j]);
             }
         }
     }
@@ -403,26 +384,24 @@ impl SolvedFilm<'_> {
     }
 
     /// `per_time`: 1 for rates of change, 1/duration for steps.
-    fn sensitivity_storage(&self, adjoints: &[Vec<f64>; 4], per_time: f64, by: &mut [[f64; 4]; 4]) {
+    fn sensitivity_storage(&self, adjoints: &[Lanes], per_time: f64, by: &mut Sensitivity) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
+            let trig = self.angles.means[i];
             for j in 0..m {
                 let k = i * m + j;
-                let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
-                let values = adjoints.each_ref().map(|y| y[k]);
-                accumulate(
-                    by,
-                    values,
-                    by_height,
-                    self.angles.means[i],
-                    self.grid.axial[j],
-                );
+                let limited = self.film_fraction[k] < 1.0
+                    && self.operator.ruptured_storage[k] > self.operator.storage[k];
+                if !limited {
+                    let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
+                    by.add(adjoints[k], [0.0; 4], by_height, trig, self.grid.axial[j]);
+                }
             }
         }
     }
 
     /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell.
-    pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Vec<f64>; 4]) {
+    pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Lanes]) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
             let [cos, sin] = self.angles.means[i];
@@ -431,30 +410,52 @@ impl SolvedFilm<'_> {
                 let unknown = self.set.cells[k] == Cell::Full && loaded(k);
                 let area = if unknown { self.grid.area(i, j) } else { 0.0 };
                 let lever = area * self.grid.axial[j];
-                weights[0][k] = -cos * area;
-                weights[1][k] = -sin * area;
-                weights[2][k] = sin * lever;
-                weights[3][k] = -cos * lever;
+                weights[k] = [-cos * area, -sin * area, sin * lever, -cos * lever];
             }
         }
     }
 }
 
-/// Adds the share of one face or cell to the derivatives with respect to the four motions, given
-/// the adjoint drop per output and the derivative of the flow by H there. H falls by
-/// `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`; the two signs cancel.
-fn accumulate(
-    by: &mut [[f64; 4]; 4],
-    drops: [f64; 4],
-    by_height: f64,
-    [cos, sin]: [f64; 2],
-    zeta: f64,
-) {
-    let columns = [cos, sin, -zeta * sin, zeta * cos].map(|c| c * by_height);
-    for (row, drop) in by.iter_mut().zip(drops) {
-        for (entry, column) in row.iter_mut().zip(columns) {
-            *entry += drop * column;
+/// Derivatives of the four outputs being summed: one row of lanes (outputs) per motion.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sensitivity {
+    by_motion: [Lanes; 4],
+}
+
+impl Sensitivity {
+    /// Adds the share of one face (adjoints before and behind it) or cell, given the derivative of
+    /// its flow by H. H falls by `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`, and
+    /// the output is minus the adjoint times the balance: the two signs cancel.
+    #[inline]
+    fn add(
+        &mut self,
+        before: Lanes,
+        behind: Lanes,
+        by_height: f64,
+        [cos, sin]: [f64; 2],
+        zeta: f64,
+    ) {
+        let drop: Lanes = std::array::from_fn(|o| (before[o] - behind[o]) * by_height);
+        let motions = [cos, sin, -zeta * sin, zeta * cos];
+        for (lanes, motion) in self.by_motion.iter_mut().zip(motions) {
+            for (sum, drop) in lanes.iter_mut().zip(drop) {
+                *sum += drop * motion;
+            }
         }
+    }
+
+    /// As rows of outputs by motions, SI.
+    fn in_units(&self, units: &Units) -> [[f64; 4]; 4] {
+        let force = units.pressure * units.area;
+        let moment = force * units.radius;
+        let outputs = [force, force, moment, moment];
+        let (per_length, per_tilt) = (1.0 / units.clearance, units.radius / units.clearance);
+        let inputs = [per_length, per_length, per_tilt, per_tilt];
+        std::array::from_fn(|output| {
+            std::array::from_fn(|motion| {
+                self.by_motion[motion][output] * outputs[output] * inputs[motion]
+            })
+        })
     }
 }
 

@@ -12,6 +12,7 @@
 
 pub mod bearing;
 pub mod cavitation;
+pub mod closed_form;
 pub mod dimensionless;
 pub mod force;
 pub mod frame;
@@ -25,6 +26,7 @@ pub mod solver;
 pub mod supply;
 
 pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
 pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
     FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,

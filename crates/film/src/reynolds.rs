@@ -84,6 +84,10 @@ pub struct Operator {
     pub transport: Vec<f64>,
     /// Flow into store per unit of film fraction, 1/s, per cell.
     pub storage: Vec<f64>,
+    /// The same where the film is ruptured. Without a past to start from, a film fraction that stays
+    /// constant while the gap closes must gain oil; it is let gain no more than transport brings it
+    /// over one radian, or it would grow without bound where the gap closes faster than that.
+    pub ruptured_storage: Vec<f64>,
     /// Flow out of the store of the past, 1/s, per cell.
     pub stored: Vec<f64>,
     /// Mean surface speed, rad/s.
@@ -104,6 +108,7 @@ impl Operator {
             conductance_axial: vec![0.0; n * (m + 1)],
             transport: vec![0.0; (n + 1) * m],
             storage: vec![0.0; n * m],
+            ruptured_storage: vec![0.0; n * m],
             stored: vec![0.0; n * m],
             mean_speed: 0.0,
         }
@@ -141,14 +146,33 @@ impl Operator {
             for j in 0..m {
                 let k = i * m + j;
                 let area = grid.area(i, j);
+                let least = -self.outflow(k) * grid.around_widths[i];
                 (self.storage[k], self.stored[k]) = match storage {
                     Storage::Rate => (gap.rate[k] * area, 0.0),
                     Storage::Step { duration, old } => {
                         (gap.mean[k] * area / duration, old[k] * area / duration)
                     }
                 };
+                self.ruptured_storage[k] = self.storage[k].max(least);
             }
         }
+    }
+
+    /// Flow that transport takes out of a full cell, 1/s.
+    #[must_use]
+    pub fn outflow(&self, cell: usize) -> f64 {
+        (-self.transport[cell]).max(0.0) + self.transport[cell + self.n_axial].max(0.0)
+    }
+
+    /// Flow into store of a cell with the given film fraction, 1/s.
+    #[must_use]
+    pub fn stored_flow(&self, cell: usize, film_fraction: f64) -> f64 {
+        let coefficient = if film_fraction < 1.0 {
+            self.ruptured_storage[cell]
+        } else {
+            self.storage[cell]
+        };
+        coefficient * film_fraction - self.stored[cell]
     }
 
     /// Lets fed cells hold their pressure up to their faces: a groove ends at its edge, not in the
@@ -304,7 +328,7 @@ impl Operator {
             }
             for j in 0..m {
                 let k = i * m + j;
-                let store = self.storage[k] * film_fraction[k] - self.stored[k];
+                let store = self.stored_flow(k, film_fraction[k]);
                 scale = scale.max(store.abs());
                 excess[k] -= store;
             }

@@ -19,7 +19,7 @@ use crate::gap::{AngleTables, Gap};
 use crate::grid::Grid;
 use crate::integrals::{SolvedFilm, Units, relative_motion};
 use crate::journal_state::JournalState;
-use crate::linear::{RingFactor, RingMatrix};
+use crate::linear::{Lanes, RingFactor, RingMatrix};
 use crate::reynolds::{Around, Axial, Cell, Operator, Storage};
 use crate::supply::mark_fed_cells;
 use sommerfeld_oil::Lubricant;
@@ -56,7 +56,8 @@ struct Film {
     excess: Vec<f64>,
     /// Largest flow of the last balance, 1/s.
     flow_scale: f64,
-    adjoints: [Vec<f64>; 4],
+    /// Adjoints of force and moment, per cell.
+    adjoints: Vec<Lanes>,
     /// Content theta H at the last accepted step; empty before the first.
     content: Vec<f64>,
     /// Content that an implicit step starts from.
@@ -285,14 +286,11 @@ impl FilmSolver {
             |k| closure.loaded(solved.set, solved.pressure, k),
             &mut adjoints,
         );
-        for adjoint in &mut adjoints {
-            self.film.factor.solve_transposed(adjoint);
-            // Known cells have no balance that could answer.
-            for (k, y) in adjoint.iter_mut().enumerate() {
-                let cell = self.film.set.cells[k];
-                if cell == Cell::Fed || (cell == Cell::Ruptured && !closure.conserves_mass()) {
-                    *y = 0.0;
-                }
+        self.film.factor.solve_transposed(&mut adjoints);
+        // Known cells have no balance that could answer.
+        for (adjoint, cell) in adjoints.iter_mut().zip(&self.film.set.cells) {
+            if *cell == Cell::Fed || (*cell == Cell::Ruptured && !closure.conserves_mass()) {
+                *adjoint = [0.0; 4];
             }
         }
         let storage = film_storage(closure, step, &self.film.old_content);
@@ -432,7 +430,7 @@ impl Film {
             film_fraction: zero.clone(),
             excess: zero.clone(),
             flow_scale: 0.0,
-            adjoints: std::array::from_fn(|_| zero.clone()),
+            adjoints: vec![[0.0; 4]; n * m],
             content: Vec::with_capacity(n * m),
             old_content: zero.clone(),
             is_warm: false,
@@ -509,6 +507,7 @@ impl Film {
 
     /// Stage 4: solves the equations of the present set. `false` where they determine no film.
     fn solve(&mut self, closure: &dyn CavitationModel) -> bool {
+        closure.admit_set(&self.operator, &mut self.set);
         closure.assemble(&self.operator, &self.set, &mut self.matrix, &mut self.rhs);
         if !self.factor.factor(&self.matrix) {
             return false;
@@ -615,7 +614,11 @@ impl Film {
                 _ => worst,
             },
         );
-        if self.flow_scale > 0.0 {
+        // Where nothing flows, round-off of the pressures is all there is to compare with.
+        let conductance = self.operator.conductance_around.iter();
+        let gross = conductance.fold(0.0_f64, |a, b| a.max(*b))
+            * self.pressure.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        if self.flow_scale > ROUND_OFF * gross {
             worst / self.flow_scale
         } else {
             0.0

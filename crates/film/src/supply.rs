@@ -37,29 +37,37 @@ fn mark_feed(
     mut mark: impl FnMut(usize),
 ) {
     let radius = bearing.radius();
-    let mut nearest = (f64::INFINITY, 0);
+    let around = |angle: f64| radius * ((angle - centre_angle + PI).rem_euclid(TAU) - PI);
+    let reach = match feed.shape {
+        FeedShape::Hole { diameter } => 0.5 * diameter,
+        FeedShape::Rectangle { length, .. } => 0.5 * length,
+        FeedShape::Circumferential { .. } => f64::INFINITY,
+    };
     let mut any = false;
     for (i, &angle) in grid.around.iter().enumerate() {
-        let around = radius * ((angle - centre_angle + PI).rem_euclid(TAU) - PI);
+        let around = around(angle);
+        if around.abs() > reach {
+            continue;
+        }
         for (j, &zeta) in grid.axial.iter().enumerate() {
-            let along = radius * zeta - feed.position;
-            let cell = i * grid.n_axial() + j;
-            if inside(feed.shape, around, along) {
-                mark(cell);
+            if inside(feed.shape, around, radius * zeta - feed.position) {
+                mark(i * grid.n_axial() + j);
                 any = true;
-            }
-            let distance = match feed.shape {
-                FeedShape::Circumferential { .. } => along.abs(),
-                _ => around.hypot(along),
-            };
-            if distance < nearest.0 {
-                nearest = (distance, cell);
             }
         }
     }
     if !any {
-        mark(nearest.1);
+        let i = nearest(&grid.around, |angle| around(angle).abs());
+        let j = nearest(&grid.axial, |zeta| (radius * zeta - feed.position).abs());
+        mark(i * grid.n_axial() + j);
     }
+}
+
+/// Index of the place with the smallest distance.
+fn nearest(places: &[f64], distance: impl Fn(f64) -> f64) -> usize {
+    (0..places.len())
+        .min_by(|&a, &b| distance(places[a]).total_cmp(&distance(places[b])))
+        .unwrap_or(0)
 }
 
 /// Whether the point at distance `around`, `along` (m) from the centre lies in the outline.

@@ -127,6 +127,27 @@ impl LimitCheck {
     }
 }
 
+impl std::fmt::Display for LimitCheck {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let verdict = match self.verdict {
+            Verdict::Ok => "OK",
+            Verdict::Exceeded => "EXCEEDED",
+            Verdict::NotEvaluated => "not evaluated",
+        };
+        let Limit {
+            quantity,
+            value,
+            source,
+        } = &self.limit;
+        let unit = quantity.unit_suffix();
+        write!(
+            f,
+            "limit {}_{unit} {value:e} ({source}): {verdict}",
+            quantity.key()
+        )
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

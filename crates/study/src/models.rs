@@ -141,6 +141,14 @@ pub const MODELS: &[Model] = &[
                     for liquid petroleum or hydrocarbon products",
         doi: None,
     },
+    Model {
+        family: "extrapolation",
+        name: "richardson",
+        description: "Integrals extrapolated from the full and half the axial cells, second order",
+        reference: "Richardson, L. F. (1911): The approximate arithmetical solution by finite \
+                    differences. Phil. Trans. R. Soc. A 210, 307-357",
+        doi: Some("10.1098/rsta.1911.0009"),
+    },
 ];
 
 /// The model of this family and name.

@@ -219,7 +219,48 @@ impl Results {
     }
 }
 
+impl Results {
+    /// The few figures that answer the question of the study, named and with units, for a terminal.
+    #[must_use]
+    pub fn key_figures(&self) -> Vec<(&'static str, String)> {
+        match &self.body {
+            Body::Steady(steady) => steady.key_figures(),
+            Body::LoadCycle(cycle) => cycle.key_figures(),
+            Body::Dimensionless(integrals) => [
+                ("p cos", integrals.p_cos),
+                ("p sin", integrals.p_sin),
+                ("p Z cos", integrals.p_z_cos),
+                ("p Z sin", integrals.p_z_sin),
+                ("peak", integrals.peak),
+            ]
+            .map(|(name, value)| (name, format!("{value:.7}")))
+            .to_vec(),
+        }
+    }
+}
+
 impl SteadyResults {
+    fn key_figures(&self) -> Vec<(&'static str, String)> {
+        let film = &self.summary;
+        let side_flow = film.side_flow[0] + film.side_flow[1];
+        vec![
+            (
+                "relative eccentricity",
+                format!("{:.5}", self.relative_eccentricity()),
+            ),
+            (
+                "minimum film thickness",
+                micrometres(film.minimum_film_thickness.value),
+            ),
+            (
+                "peak film pressure",
+                megapascals(film.peak_film_pressure.value),
+            ),
+            ("power loss", format!("{:.1} W", film.power_loss())),
+            ("side flow", cubic_centimetres(side_flow)),
+        ]
+    }
+
     /// Eccentricity in the mid-plane over the radial clearance.
     #[must_use]
     pub fn relative_eccentricity(&self) -> f64 {
@@ -249,6 +290,38 @@ impl SteadyResults {
 }
 
 impl CycleResults {
+    fn key_figures(&self) -> Vec<(&'static str, String)> {
+        let at = |point: &CyclePoint| format!("at {:.1} deg", point.crank_angle.to_degrees());
+        let mut figures = Vec::new();
+        if let Some(point) = self.minimum_film_thickness() {
+            let value = point.summary.minimum_film_thickness.value;
+            figures.push((
+                "minimum film thickness",
+                format!("{} {}", micrometres(value), at(point)),
+            ));
+        }
+        if let Some(point) = self.peak_film_pressure() {
+            let value = point.summary.peak_film_pressure.value;
+            figures.push((
+                "peak film pressure",
+                format!("{} {}", megapascals(value), at(point)),
+            ));
+        }
+        if figures.is_empty() {
+            return figures;
+        }
+        let power = self.mean(|point| point.summary.power_loss());
+        let flow = self.mean(|point| point.summary.side_flow[0] + point.summary.side_flow[1]);
+        figures.push(("mean power loss", format!("{power:.1} W")));
+        figures.push(("mean side flow", cubic_centimetres(flow)));
+        let orbit = &self.orbit;
+        figures.push((
+            "cycles",
+            format!("{} (closure {:.1e})", orbit.cycles, orbit.closure),
+        ));
+        figures
+    }
+
     /// The point with the thinnest film.
     #[must_use]
     pub fn minimum_film_thickness(&self) -> Option<&CyclePoint> {
@@ -313,6 +386,18 @@ impl CycleResults {
             .iter()
             .filter(|point| point.outcome != Outcome::Converged)
     }
+}
+
+fn micrometres(metres: f64) -> String {
+    format!("{:.4} um", 1e6 * metres)
+}
+
+fn megapascals(pascals: f64) -> String {
+    format!("{:.3} MPa", 1e-6 * pascals)
+}
+
+fn cubic_centimetres(cubic_metres: f64) -> String {
+    format!("{:.3} cm3/s", 1e6 * cubic_metres)
 }
 
 /// Length of a plane vector, in its unit.

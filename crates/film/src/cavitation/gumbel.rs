@@ -47,10 +47,10 @@ impl CavitationModel for Gumbel {
         pressure: &[f64],
         _film_fraction: &[f64],
         _excess: &[f64],
-        _tolerance: f64,
+        tolerance: f64,
         set: &mut FilmSet,
     ) -> usize {
         debug_assert!(set.cells.iter().all(|c| *c != Cell::Ruptured));
-        set.update_ends(operator, pressure)
+        set.update_ends(operator, pressure, tolerance)
     }
 }

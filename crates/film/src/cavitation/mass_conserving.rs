@@ -43,6 +43,15 @@ impl CavitationModel for MassConserving {
         }
     }
 
+    /// A ruptured cell that nothing drains cannot be: it is full.
+    fn admit_set(&self, operator: &Operator, set: &mut FilmSet) {
+        for (k, cell) in set.cells.iter_mut().enumerate() {
+            if *cell == Cell::Ruptured && !can_drain(operator, k) {
+                *cell = Cell::Full;
+            }
+        }
+    }
+
     /// A full cell with negative pressure ruptures, if it can then drain: a closing gap that holds
     /// more than leaves it stays full. A ruptured cell with more than a full film fills.
     fn update_set(
@@ -51,10 +60,10 @@ impl CavitationModel for MassConserving {
         pressure: &[f64],
         film_fraction: &[f64],
         _excess: &[f64],
-        _tolerance: f64,
+        tolerance: f64,
         set: &mut FilmSet,
     ) -> usize {
-        let mut moved = set.update_ends(operator, pressure);
+        let mut moved = set.update_ends(operator, pressure, tolerance);
         for (k, cell) in set.cells.iter_mut().enumerate() {
             let next = match *cell {
                 Cell::Full if pressure[k] < 0.0 && can_drain(operator, k) => Cell::Ruptured,
@@ -70,7 +79,5 @@ impl CavitationModel for MassConserving {
 
 /// Whether a film fraction has anything to balance it: transport out of the cell, or storage.
 fn can_drain(operator: &Operator, cell: usize) -> bool {
-    let west = operator.transport[cell];
-    let east = operator.transport[cell + operator.n_axial];
-    (-west).max(0.0) + east.max(0.0) + operator.storage[cell] > 0.0
+    operator.outflow(cell) + operator.ruptured_storage[cell] > 0.0
 }

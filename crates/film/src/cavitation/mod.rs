@@ -47,6 +47,9 @@ pub trait CavitationModel: Send + Sync {
         pressure
     }
 
+    /// Makes a set that comes from another gap or grid one whose equations have a solution.
+    fn admit_set(&self, _operator: &Operator, _set: &mut FilmSet) {}
+
     /// Moves every cell that breaks a condition to its other state; returns how many moved.
     /// `excess` is what enters each cell beyond what leaves it (1/s), `tolerance` the flow (1/s)
     /// below which a violation is round-off.
@@ -99,17 +102,26 @@ impl FilmSet {
     }
 
     /// Opens ends that oil wants to leave through and closes those that would draw in air.
-    fn update_ends(&mut self, operator: &Operator, pressure: &[f64]) -> usize {
+    fn update_ends(&mut self, operator: &Operator, pressure: &[f64], tolerance: f64) -> usize {
         let Axial::Air(air) = operator.axial else {
             return 0;
         };
         let m = operator.n_axial;
         let mut moved = 0;
         for (i, ends) in self.end_open.chunks_exact_mut(2).enumerate() {
-            for (end, cell) in [(0, i * m), (1, i * m + m - 1)] {
-                let open = pressure[cell] >= air;
-                moved += usize::from(open != ends[end]);
-                ends[end] = open;
+            for (end, cell, face) in [(0, i * m, 0), (1, i * m + m - 1, m)] {
+                let conductance = operator.conductance_axial[i * (m + 1) + face];
+                let outflow = conductance * (pressure[cell] - air);
+                // Air at rest against oil at rest: what round-off makes of nothing must not switch.
+                let still = 1e-12 * conductance * (pressure[cell].abs() + air.abs());
+                let tolerance = tolerance.max(still);
+                let turns = if ends[end] {
+                    outflow < -tolerance
+                } else {
+                    outflow > tolerance
+                };
+                moved += usize::from(turns);
+                ends[end] ^= turns;
             }
         }
         moved
@@ -153,9 +165,16 @@ fn assemble_balance(
                 continue;
             }
             let own = if cell == Cell::Full { 1.0 } else { 0.0 };
-            let mut row = Row {
-                centre: (1.0 - own) * operator.storage[k],
-                rhs: operator.stored[k] - own * operator.storage[k],
+            let mut row = if cell == Cell::Full {
+                Row {
+                    centre: 0.0,
+                    rhs: operator.stored[k] - operator.storage[k],
+                }
+            } else {
+                Row {
+                    centre: operator.ruptured_storage[k],
+                    rhs: operator.stored[k],
+                }
             };
             let (west, east) = (operator.west(i, j), operator.east(i, j));
             let (west_face, east_face) = (k, k + m);

@@ -47,7 +47,7 @@ impl CavitationModel for Reynolds {
         tolerance: f64,
         set: &mut FilmSet,
     ) -> usize {
-        let mut moved = set.update_ends(operator, pressure);
+        let mut moved = set.update_ends(operator, pressure, tolerance);
         for (k, cell) in set.cells.iter_mut().enumerate() {
             let next = match *cell {
                 Cell::Full if pressure[k] < 0.0 => Cell::Ruptured,

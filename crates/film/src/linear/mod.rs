@@ -2,4 +2,4 @@
 
 pub mod ring;
 
-pub use ring::{RingFactor, RingMatrix};
+pub use ring::{Lanes, RingFactor, RingMatrix};

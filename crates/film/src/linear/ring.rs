@@ -113,7 +113,12 @@ pub struct RingFactor {
     product: Vec<f64>,
     line: Vec<f64>,
     border_line: Vec<f64>,
+    lanes: Vec<Lanes>,
+    border_lanes: Vec<Lanes>,
 }
+
+/// Four right sides side by side.
+pub type Lanes = [f64; 4];
 
 impl RingFactor {
     /// Storage for matrices of the shape of `matrix`.
@@ -140,6 +145,8 @@ impl RingFactor {
             product: vec![0.0; m * m],
             line: vec![0.0; m],
             border_line: vec![0.0; m],
+            lanes: vec![[0.0; 4]; m],
+            border_lanes: vec![[0.0; 4]; m],
         }
     }
 
@@ -167,9 +174,6 @@ impl RingFactor {
             }
         }
         if self.border.is_some() {
-            for row in self.border_inverse.chunks_exact(m).enumerate() {
-                debug_assert_eq!(row.1.len(), m);
-            }
             return sweep(&mut self.border_inverse, m, m, |p| p);
         }
         true
@@ -232,62 +236,70 @@ impl RingFactor {
         }
     }
 
-    /// Solves the transposed system in place: for adjoints.
-    pub fn solve_transposed(&mut self, x: &mut [f64]) {
+    /// Solves the transposed system in place for four right sides at once, one per lane: the
+    /// adjoints of force and moment. The factors are read once for all four.
+    pub fn solve_transposed(&mut self, x: &mut [Lanes]) {
         let m = self.n_axial;
+        let size = m * m;
         if let Some(border) = self.border {
-            self.border_line
+            self.border_lanes
                 .copy_from_slice(&x[border * m..(border + 1) * m]);
         }
         for position in 0..self.order.len() {
             let station = self.order[position];
-            let rows = station * m..(station + 1) * m;
-            apply_inverse_transposed(
-                &self.inverse[station * m * m..],
-                &self.inverse_diagonal[rows.clone()],
-                &self.rows[self.start[station]..self.start[station + 1]],
-                &x[rows],
-                &mut self.line,
-            );
+            self.apply_transposed(station, x);
             if self.has_to_border[station] {
-                let block = &self.to_border[station * m * m..(station + 1) * m * m];
-                subtract_product_transposed(block, &self.line, &mut self.border_line);
+                let block = &self.to_border[station * size..(station + 1) * size];
+                subtract_product_transposed(block, &self.lanes, &mut self.border_lanes);
             }
             if let Some(&next) = self.order.get(position + 1) {
-                for j in 0..m {
-                    x[next * m + j] -= self.ahead[station * m + j] * self.line[j];
-                }
+                let coupling = &self.ahead[station * m..(station + 1) * m];
+                subtract_scaled(&mut x[next * m..(next + 1) * m], coupling, &self.lanes);
             }
         }
         if let Some(border) = self.border {
             let solution = &mut x[border * m..(border + 1) * m];
-            solution.fill(0.0);
-            subtract_product_transposed(&self.border_inverse, &self.border_line, solution);
+            solution.fill([0.0; 4]);
+            subtract_product_transposed(&self.border_inverse, &self.border_lanes, solution);
             for value in solution.iter_mut() {
-                *value = -*value;
+                *value = value.map(|v| -v);
             }
-            self.border_line.copy_from_slice(solution);
+            self.border_lanes.copy_from_slice(solution);
         }
         for position in (0..self.order.len()).rev() {
             let station = self.order[position];
             if let Some(&next) = self.order.get(position + 1) {
-                for j in 0..m {
-                    x[station * m + j] -= self.behind[next * m + j] * x[next * m + j];
-                }
+                let coupling = &self.behind[next * m..(next + 1) * m];
+                let (own, next) = two_stations(x, station, next, m);
+                subtract_scaled(own, coupling, next);
             }
             let rows = station * m..(station + 1) * m;
             if self.has_from_border[station] {
-                let block = &self.from_border[station * m * m..(station + 1) * m * m];
-                subtract_product_transposed(block, &self.border_line, &mut x[rows.clone()]);
+                let block = &self.from_border[station * size..(station + 1) * size];
+                subtract_product_transposed(block, &self.border_lanes, &mut x[rows.clone()]);
             }
-            apply_inverse_transposed(
-                &self.inverse[station * m * m..],
-                &self.inverse_diagonal[rows.clone()],
-                &self.rows[self.start[station]..self.start[station + 1]],
-                &x[rows.clone()],
-                &mut self.line,
-            );
-            x[rows].copy_from_slice(&self.line);
+            self.apply_transposed(station, x);
+            x[rows].copy_from_slice(&self.lanes);
+        }
+    }
+
+    /// `lanes = D^-T x` of one station.
+    fn apply_transposed(&mut self, station: usize, x: &[Lanes]) {
+        let m = self.n_axial;
+        let columns = &self.rows[self.start[station]..self.start[station + 1]];
+        let inverse = &self.inverse[station * m * m..station * m * m + m * columns.len()];
+        let diagonal = &self.inverse_diagonal[station * m..(station + 1) * m];
+        let x = &x[station * m..(station + 1) * m];
+        for ((value, d), x) in self.lanes.iter_mut().zip(diagonal).zip(x) {
+            *value = x.map(|x| d * x);
+        }
+        if columns.is_empty() {
+            return;
+        }
+        for (line, x) in inverse.chunks_exact(columns.len()).zip(x) {
+            for (entry, &j) in line.iter().zip(columns) {
+                add_lanes(&mut self.lanes[j], *entry, x);
+            }
         }
     }
 
@@ -623,26 +635,6 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
-/// `y = D^-T x` of one station.
-fn apply_inverse_transposed(
-    inverse: &[f64],
-    diagonal: &[f64],
-    columns: &[usize],
-    x: &[f64],
-    y: &mut [f64],
-) {
-    let width = columns.len();
-    for ((value, d), x) in y.iter_mut().zip(diagonal).zip(x) {
-        *value = d * x;
-    }
-    for (row, factor) in x.iter().enumerate() {
-        let line = &inverse[row * width..(row + 1) * width];
-        for (entry, &j) in line.iter().zip(columns) {
-            y[j] += factor * entry;
-        }
-    }
-}
-
 /// `y += A x` for a square row-major A.
 fn add_product(a: &[f64], x: &[f64], y: &mut [f64]) {
     for (line, value) in a.chunks_exact(x.len()).zip(y) {
@@ -656,15 +648,45 @@ fn subtract_product(a: &[f64], x: &[f64], y: &mut [f64]) {
     }
 }
 
-fn subtract_product_transposed(a: &[f64], x: &[f64], y: &mut [f64]) {
-    for (line, factor) in a.chunks_exact(y.len()).zip(x) {
+fn subtract_product_transposed(a: &[f64], x: &[Lanes], y: &mut [Lanes]) {
+    for (line, x) in a.chunks_exact(y.len()).zip(x) {
+        let factor = x.map(|v| -v);
         for (value, entry) in y.iter_mut().zip(line) {
-            *value -= factor * entry;
+            add_lanes(value, *entry, &factor);
         }
     }
 }
 
-/// `product = D^-1 right` for a square `right`.
+fn add_lanes(target: &mut Lanes, factor: f64, source: &Lanes) {
+    for (value, entry) in target.iter_mut().zip(source) {
+        *value += factor * entry;
+    }
+}
+
+/// `x -= diagonal * y`.
+fn subtract_scaled(x: &mut [Lanes], diagonal: &[f64], y: &[Lanes]) {
+    for ((value, factor), y) in x.iter_mut().zip(diagonal).zip(y) {
+        add_lanes(value, -factor, y);
+    }
+}
+
+/// The lines of two different stations, the first to be written.
+fn two_stations(
+    x: &mut [Lanes],
+    first: usize,
+    second: usize,
+    m: usize,
+) -> (&mut [Lanes], &[Lanes]) {
+    if first < second {
+        let (low, high) = x.split_at_mut(second * m);
+        (&mut low[first * m..(first + 1) * m], &high[..m])
+    } else {
+        let (low, high) = x.split_at_mut(first * m);
+        (&mut high[..m], &low[second * m..(second + 1) * m])
+    }
+}
+
+/// `product = D^-1 right` for a square `right`, many of whose rows may be zero.
 fn multiply_left(
     inverse: &[f64],
     diagonal: &[f64],
@@ -674,13 +696,22 @@ fn multiply_left(
 ) {
     let m = diagonal.len();
     let width = columns.len();
-    for row in 0..m {
-        let target = &mut product[row * m..(row + 1) * m];
-        for (value, entry) in target.iter_mut().zip(&right[row * m..(row + 1) * m]) {
-            *value = diagonal[row] * entry;
+    for ((target, source), d) in product
+        .chunks_exact_mut(m)
+        .zip(right.chunks_exact(m))
+        .zip(diagonal)
+    {
+        for (value, entry) in target.iter_mut().zip(source) {
+            *value = d * entry;
         }
-        for (factor, &j) in inverse[row * width..(row + 1) * width].iter().zip(columns) {
-            add_scaled(target, *factor, &right[j * m..(j + 1) * m]);
+    }
+    for (column, &j) in columns.iter().enumerate() {
+        let source = &right[j * m..(j + 1) * m];
+        if source.iter().all(|v| *v == 0.0) {
+            continue;
+        }
+        for (row, target) in product.chunks_exact_mut(m).enumerate() {
+            add_scaled(target, inverse[row * width + column], source);
         }
     }
 }
@@ -841,8 +872,11 @@ mod tests {
                         residual < 1e-11 * scale,
                         "{periodic} {flows_east} {share}: {residual}"
                     );
-                    let mut y = rhs.clone();
-                    factor.solve_transposed(&mut y);
+                    let mut lanes: Vec<Lanes> =
+                        rhs.iter().map(|r| [*r, -*r, 0.0, 2.0 * r]).collect();
+                    factor.solve_transposed(&mut lanes);
+                    assert!(lanes.iter().all(|l| l[1] == -l[0] && l[2] == 0.0));
+                    let y: Vec<f64> = lanes.iter().map(|l| l[0]).collect();
                     let scale = y.iter().fold(1.0, |s: f64, v| s.max(v.abs()));
                     let residual = transposed_residual(&a, &y, &rhs);
                     assert!(

@@ -102,6 +102,22 @@ impl Film<'_> {
         )
     }
 
+    /// Growth of a full film in cell (i, j) without a past, m3/s. What a ruptured one gains where the
+    /// gap closes is bounded by what the surfaces drag out of the cell within one radian.
+    fn steady_growth(&self, i: usize, j: usize, area: f64, ruptured: bool) -> f64 {
+        let growth = self.mean_rate(i, j) * area;
+        if !ruptured || !self.conserves_mass {
+            return growth;
+        }
+        let radius = 0.5 * self.bearing.diameter;
+        let dragged = 0.5 * radius * (self.state.journal_speed + self.state.shell_speed);
+        let z = 0.5 * (self.places[j] + self.places[j + 1]);
+        let leaves_at = if dragged > 0.0 { i + 1 } else { i };
+        let width = self.places[j + 1] - self.places[j];
+        let outflow = dragged.abs() * self.thickness(self.angles[leaves_at], z) * width;
+        growth.max(-outflow * (self.angles[i + 1] - self.angles[i]))
+    }
+
     fn pressure(&self, k: usize) -> f64 {
         self.field.pressure[k] - self.bearing.cavitation_pressure
     }
@@ -205,7 +221,7 @@ pub fn recompute(
                     }
                     (content - old[k]) / duration * area
                 }
-                Past::None => theta * film.mean_rate(i, j) * area,
+                Past::None => theta * film.steady_growth(i, j, area, film.is_ruptured(k)),
             };
             sum.growth += growth;
             sum.largest_flow = sum.largest_flow.max(growth.abs());

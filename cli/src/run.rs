@@ -1,0 +1,108 @@
+//! `sommerfeld run`: reads a study, runs it, tells what was found and where it lies.
+
+use crate::commands;
+use crate::exit::Exit;
+use crate::progress::{Progress, stop_flag};
+use clap::Args;
+use sommerfeld_study::results::status_name;
+use sommerfeld_study::{Outcome, RunError, RunSummary};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+/// Arguments of `run`.
+#[derive(Debug, Args)]
+pub struct RunArguments {
+    /// The study file
+    pub file: PathBuf,
+    /// Directory of the results [default: beside the study, named after it]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Solve on a second grid and state error bars
+    #[arg(long)]
+    pub verify: bool,
+    /// Threads to use [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+/// Checks the study, runs it and tells how it ended.
+pub fn run(arguments: &RunArguments) -> Exit {
+    if arguments.verify {
+        eprintln!(
+            "error: --verify is not built yet in version {}",
+            env!("CARGO_PKG_VERSION")
+        );
+        return Exit::Refused;
+    }
+    let study = match commands::read(&arguments.file) {
+        Ok(study) => study,
+        Err(exit) => return exit,
+    };
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| default_directory(&arguments.file));
+    let stop = stop_flag();
+    let mut progress = Progress::new(stop.clone());
+    let ended = sommerfeld_study::run(&study, &out, &mut |event| progress.show(&event));
+    progress.finish();
+    match ended {
+        Ok(summary) => {
+            tell(&summary, &out);
+            if stop.load(Ordering::Relaxed) && summary.results.header.status != Outcome::Converged {
+                eprintln!("interrupted: run the same command again to finish it");
+                Exit::Interrupted
+            } else if summary.results.header.status == Outcome::Converged {
+                Exit::Done
+            } else {
+                Exit::NotConverged
+            }
+        }
+        Err(RunError::Film(error)) => {
+            eprintln!("error: {}: {error}", arguments.file.display());
+            Exit::Refused
+        }
+        Err(RunError::Output(error)) => {
+            eprintln!("error: {error}");
+            Exit::MachineFailed
+        }
+    }
+}
+
+/// Status, key figures and the place of the report, a few lines.
+fn tell(summary: &RunSummary, out: &Path) {
+    let header = &summary.results.header;
+    println!("{}: {}", header.analysis, status_name(header.status));
+    for message in &header.messages {
+        println!("  {message}");
+    }
+    for (name, value) in summary.results.key_figures() {
+        println!("  {name:<24} {value}");
+    }
+    for check in &header.limits {
+        println!("  {check}");
+    }
+    println!("results in {}", out.display());
+    println!("report  in {}", out.join("report.html").display());
+}
+
+/// Beside the study, named after it.
+fn default_directory(file: &Path) -> PathBuf {
+    match file.extension() {
+        Some(_) => file.with_extension(""),
+        // The study itself has that name.
+        None => file.with_extension("results"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_lie_beside_the_study() {
+        let directory = |file: &str| default_directory(Path::new(file));
+        assert_eq!(directory("a/big-end.toml"), Path::new("a/big-end"));
+        assert_eq!(directory("a/study"), Path::new("a/study.results"));
+    }
+}

@@ -1,0 +1,236 @@
+//! What acts on the bearing at any crank angle?
+//!
+//! Between its rows the load table is linear, over its end it is periodic. The angles that journal
+//! and shell have turned are the integrals of their speeds over time from crank angle 0, where the
+//! journal's +X lies on the frame's +X; the linear interpolation is integrated exactly.
+
+use crate::{LoadCycle, LoadPoint};
+use sommerfeld_film::{FilmError, JournalState};
+
+/// A checked load table with the surface angles at its rows.
+#[derive(Debug, Clone)]
+pub(crate) struct CycleTable<'a> {
+    cycle: &'a LoadCycle,
+    /// Angles of journal and shell at each row, and one period after the first, rad.
+    turned: Vec<[f64; 2]>,
+    /// The same at crank angle 0.
+    turned_at_zero: [f64; 2],
+}
+
+impl<'a> CycleTable<'a> {
+    /// # Errors
+    /// [`FilmError::Unsupported`] for a table that is empty, not sorted, longer than its period or
+    /// without a positive crank speed and period.
+    pub(crate) fn new(cycle: &'a LoadCycle) -> Result<Self, FilmError> {
+        check(cycle)?;
+        let mut table = Self {
+            cycle,
+            turned: vec![[0.0; 2]],
+            turned_at_zero: [0.0; 2],
+        };
+        let mut angles = [0.0; 2];
+        for interval in 0..cycle.points.len() {
+            let (from, to) = table.interval(interval);
+            let duration = (to.crank_angle - from.crank_angle) / cycle.engine_speed;
+            angles[0] += 0.5 * duration * (from.journal_speed + to.journal_speed);
+            angles[1] += 0.5 * duration * (from.shell_speed + to.shell_speed);
+            table.turned.push(angles);
+        }
+        table.turned_at_zero = table.turned_since_first_row(0.0);
+        Ok(table)
+    }
+
+    /// Crank angle of the first row, rad.
+    pub(crate) fn first_angle(&self) -> f64 {
+        self.cycle.points[0].crank_angle
+    }
+
+    /// All rows are equal.
+    pub(crate) fn is_constant(&self) -> bool {
+        let first = &self.cycle.points[0];
+        self.cycle.points.iter().all(|point| {
+            point.load == first.load
+                && point.moment == first.moment
+                && point.journal_speed == first.journal_speed
+                && point.shell_speed == first.shell_speed
+        })
+    }
+
+    /// Any row holds a moment.
+    pub(crate) fn has_moments(&self) -> bool {
+        self.cycle
+            .points
+            .iter()
+            .any(|point| point.moment != [0.0; 2])
+    }
+
+    /// Largest load, N.
+    pub(crate) fn largest_load(&self) -> f64 {
+        self.cycle
+            .points
+            .iter()
+            .map(|point| point.load[0].hypot(point.load[1]))
+            .fold(0.0, f64::max)
+    }
+
+    /// Load, moment and speeds at a crank angle (rad, any turn).
+    pub(crate) fn at(&self, crank_angle: f64) -> LoadPoint {
+        let (_, index, share) = self.locate(crank_angle);
+        let (from, to) = self.interval(index);
+        let between = |a: f64, b: f64| a + share * (b - a);
+        LoadPoint {
+            crank_angle,
+            load: [0, 1].map(|axis| between(from.load[axis], to.load[axis])),
+            moment: [0, 1].map(|axis| between(from.moment[axis], to.moment[axis])),
+            journal_speed: between(from.journal_speed, to.journal_speed),
+            shell_speed: between(from.shell_speed, to.shell_speed),
+        }
+    }
+
+    /// Speeds and surface angles at a crank angle (rad, any turn); position and rates are zero.
+    pub(crate) fn frame(&self, crank_angle: f64) -> JournalState {
+        let point = self.at(crank_angle);
+        let turned = self.turned_since_first_row(crank_angle);
+        JournalState {
+            journal_speed: point.journal_speed,
+            shell_speed: point.shell_speed,
+            journal_angle: turned[0] - self.turned_at_zero[0],
+            shell_angle: turned[1] - self.turned_at_zero[1],
+            ..JournalState::default()
+        }
+    }
+
+    /// Angles of journal and shell since the first row of turn 0, rad.
+    fn turned_since_first_row(&self, crank_angle: f64) -> [f64; 2] {
+        let (turn, index, share) = self.locate(crank_angle);
+        let (from, to) = self.interval(index);
+        let duration = share * (to.crank_angle - from.crank_angle) / self.cycle.engine_speed;
+        let mean = |a: f64, b: f64| a + 0.5 * share * (b - a);
+        let since_row = [
+            duration * mean(from.journal_speed, to.journal_speed),
+            duration * mean(from.shell_speed, to.shell_speed),
+        ];
+        let per_turn = self.turned[self.cycle.points.len()];
+        [0, 1].map(|i| turn * per_turn[i] + self.turned[index][i] + since_row[i])
+    }
+
+    /// Turn, interval and share of the interval at a crank angle.
+    fn locate(&self, crank_angle: f64) -> (f64, usize, f64) {
+        let from_first = crank_angle - self.first_angle();
+        let turn = (from_first / self.cycle.period).floor();
+        let within = self.first_angle() + from_first - turn * self.cycle.period;
+        let index = self
+            .cycle
+            .points
+            .partition_point(|point| point.crank_angle <= within)
+            .saturating_sub(1);
+        let (from, to) = self.interval(index);
+        let share = (within - from.crank_angle) / (to.crank_angle - from.crank_angle);
+        (turn, index, share.clamp(0.0, 1.0))
+    }
+
+    /// Rows at both ends of an interval; the last one ends with the first row of the next turn.
+    fn interval(&self, index: usize) -> (LoadPoint, LoadPoint) {
+        let points = &self.cycle.points;
+        let to = points.get(index + 1).copied().unwrap_or(LoadPoint {
+            crank_angle: points[0].crank_angle + self.cycle.period,
+            ..points[0]
+        });
+        (points[index], to)
+    }
+}
+
+fn check(cycle: &LoadCycle) -> Result<(), FilmError> {
+    let refuse = |reason| Err(FilmError::Unsupported { reason });
+    let (Some(first), Some(last)) = (cycle.points.first(), cycle.points.last()) else {
+        return refuse("the load table has no rows");
+    };
+    let positive = |value: f64| value.is_finite() && value > 0.0;
+    if !positive(cycle.engine_speed) || !positive(cycle.period) {
+        return refuse("period and crank speed of a load cycle must be positive");
+    }
+    if !(cycle.journal_mass.is_finite() && cycle.journal_mass >= 0.0) {
+        return refuse("the journal mass must not be negative");
+    }
+    let sorted = cycle
+        .points
+        .windows(2)
+        .all(|pair| pair[0].crank_angle < pair[1].crank_angle);
+    if !sorted || last.crank_angle - first.crank_angle >= cycle.period {
+        return refuse(
+            "the rows of a load table must rise in crank angle and span less than a period",
+        );
+    }
+    let finite = cycle.points.iter().all(|point| {
+        let sum = point.load[0] + point.load[1] + point.moment[0] + point.moment[1];
+        (sum + point.crank_angle + point.journal_speed + point.shell_speed).is_finite()
+    });
+    if !finite {
+        return refuse("the load table holds a value that is not finite");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn row(crank_angle: f64, load: f64, journal_speed: f64) -> LoadPoint {
+        LoadPoint {
+            crank_angle,
+            load: [load, 0.0],
+            moment: [0.0; 2],
+            journal_speed,
+            shell_speed: 0.0,
+        }
+    }
+
+    fn cycle() -> LoadCycle {
+        LoadCycle {
+            points: vec![
+                row(-1.0, 10.0, 100.0),
+                row(1.0, 30.0, 200.0),
+                row(2.0, 0.0, 100.0),
+            ],
+            period: TAU,
+            engine_speed: 100.0,
+            journal_mass: 0.0,
+        }
+    }
+
+    #[test]
+    fn loads_are_linear_and_periodic() {
+        let cycle = cycle();
+        let table = CycleTable::new(&cycle).unwrap();
+        assert!((table.at(0.0).load[0] - 20.0).abs() < 1e-12);
+        assert!((table.at(TAU).load[0] - 20.0).abs() < 1e-12);
+        let closing = 0.5 * (2.0 + TAU - 1.0);
+        assert!((table.at(closing).load[0] - 5.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn angles_are_the_exact_integrals_of_the_speeds() {
+        let cycle = cycle();
+        let table = CycleTable::new(&cycle).unwrap();
+        assert_eq!(table.frame(0.0).journal_angle, 0.0);
+        // From 0 to 1 the mean speed is 175, from -1 to 0 it is 125; crank speed 100.
+        assert!((table.frame(1.0).journal_angle - 1.75).abs() < 1e-12);
+        assert!((table.frame(-1.0).journal_angle + 1.25).abs() < 1e-12);
+        let per_turn = 3.0 + 1.5 + (TAU - 3.0);
+        let turn = table.frame(0.5 + TAU).journal_angle - table.frame(0.5).journal_angle;
+        assert!((turn - per_turn).abs() < 1e-12);
+    }
+
+    #[test]
+    fn one_row_is_a_constant_load_and_bad_tables_are_refused() {
+        let mut cycle = cycle();
+        cycle.points.swap(0, 2);
+        assert!(CycleTable::new(&cycle).is_err());
+        cycle.points.truncate(1);
+        assert!(CycleTable::new(&cycle).unwrap().is_constant());
+        cycle.points.clear();
+        assert!(CycleTable::new(&cycle).is_err());
+    }
+}

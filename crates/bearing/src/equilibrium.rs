@@ -1,0 +1,340 @@
+//! Where does the journal rest under a steady load, and what does the film do there?
+//!
+//! Equation: `force + load = 0` (and `moment + load moment = 0`), all rates zero.
+//! Unknowns: position (m) and, when a moment is given, tilt (rad), in the shell frame.
+//! Method: Newton ([`crate::balance`]) from a start on the short-bearing path, calibrated by one
+//! probe of the film at eps 0.5; where that fails, the massless journal is let to settle in implicit
+//! time steps of growing length, which the damping of any film keeps inside the gap.
+//! References: F. W. Ocvirk, NACA TN 2808 (1952) (start value); C. T. Kelley, D. E. Keyes, SIAM J.
+//! Numer. Anal. 35 (1998) 508, 10.1137/S0036142996304796 (pseudo-transient continuation).
+
+use crate::balance::{
+    Balance, Balanced, Coordinates, IterationRow, Motion, NewtonLimits, coordinates, with_motion,
+};
+use serde::{Deserialize, Serialize};
+use sommerfeld_film::closed_form::short;
+use sommerfeld_film::{
+    Bearing, Conditions, FilmError, FilmForce, FilmSummary, JournalState, Outcome, Reaction, Step,
+    Tangent,
+};
+
+/// What is to be in equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EquilibriumRequest {
+    /// Load ON the journal in the shell frame, N.
+    pub load: [f64; 2],
+    /// Moment ON the journal about the mid-plane shell centre, N m; `None` holds the tilt.
+    pub moment: Option<[f64; 2]>,
+    /// Speeds, surface angles and the held (or first) tilt; its position and rates are not used.
+    pub frame: JournalState,
+    /// Where to start, m; `None` looks for a start on the short-bearing path.
+    pub start: Option<[f64; 2]>,
+    /// When to stop.
+    pub settings: EquilibriumSettings,
+}
+
+/// When the search for an equilibrium stops.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EquilibriumSettings {
+    /// Largest unbalanced force over the load; default 1e-9.
+    pub residual_tolerance: f64,
+    /// Largest Newton step over the smallest gap that may be left out; default 1e-6.
+    pub step_tolerance: f64,
+    /// Film updates of one Newton iteration; default 60.
+    pub iteration_limit: usize,
+    /// Largest share of the smallest gap that one step may take; default 0.7.
+    pub largest_gap_loss: f64,
+}
+
+impl Default for EquilibriumSettings {
+    fn default() -> Self {
+        Self {
+            residual_tolerance: 1e-9,
+            step_tolerance: 1e-6,
+            iteration_limit: 60,
+            largest_gap_loss: 0.7,
+        }
+    }
+}
+
+/// The journal at rest under its load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Equilibrium {
+    /// Position and tilt, shell frame; rates zero.
+    pub state: JournalState,
+    /// What the film puts on the journal there.
+    pub reaction: Reaction,
+    /// Extremes, flows, power.
+    pub summary: FilmSummary,
+    /// Derivatives of the reaction there.
+    pub tangent: Tangent,
+    /// Unbalanced force over the load.
+    pub residual: f64,
+    /// Newton iterations, and each of them.
+    pub table: Vec<IterationRow>,
+    /// Film updates of all attempts and the probe.
+    pub film_updates: usize,
+    /// How it ended; `NoSolution` also where surfaces at rest or in counter-rotation carry nothing.
+    pub outcome: Outcome,
+}
+
+impl Equilibrium {
+    /// Newton iterations of the last attempt.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.table.len()
+    }
+
+    /// Attitude angle, rad: from the load to the line of centres, positive in the sense of rotation
+    /// of `+angle`, within (-pi, pi].
+    #[must_use]
+    pub fn attitude_angle(&self, load: [f64; 2]) -> f64 {
+        let [x, y] = self.state.position;
+        (load[0] * y - load[1] * x).atan2(load[0] * x + load[1] * y)
+    }
+}
+
+/// Smallest load scale over stiffness times clearance: an unloaded journal is in equilibrium when
+/// its residual is this small.
+const UNLOADED_SHARE: f64 = 1e-6;
+
+/// Longest search by settling in time, in implicit steps.
+const SETTLING_STEPS: usize = 80;
+
+/// Finds the equilibrium of `film` under the requested load. The film is left as linearised there.
+///
+/// # Errors
+/// [`FilmError`] for what the film refuses (tilt, values that are not finite). No equilibrium, no
+/// oil or no convergence is an [`Outcome`].
+pub fn find_equilibrium(
+    film: &mut dyn FilmForce,
+    bearing: &Bearing,
+    request: &EquilibriumRequest,
+    conditions: &Conditions<'_>,
+) -> Result<Equilibrium, FilmError> {
+    let mut search = Search {
+        balance: Balance {
+            load: request.load,
+            moment: request.moment.unwrap_or_default(),
+            with_tilt: request.moment.is_some(),
+            frame: with_motion(&request.frame, coordinates(&request.frame), [0.0; 4]),
+            motion: Motion::AtRest,
+            force_scale: request.load[0].hypot(request.load[1]),
+            arm: 0.5 * bearing.width,
+        },
+        limits: NewtonLimits {
+            iterations: request.settings.iteration_limit,
+            residual: request.settings.residual_tolerance,
+            step: request.settings.step_tolerance,
+            gap_loss: request.settings.largest_gap_loss,
+            takes_last_step: false,
+        },
+        clearance: bearing.radial_clearance,
+        conditions,
+    };
+    let start = match search.start(film, request)? {
+        Start::At(start) => start,
+        Start::Nowhere(outcome) => return Ok(search.failed(film, outcome)),
+    };
+    let mut found = search
+        .balance
+        .find(film, conditions, start, &search.limits)?;
+    if found.outcome != Outcome::Converged {
+        found = search.settle(film, start, found)?;
+    }
+    Ok(Equilibrium {
+        state: found.state,
+        reaction: found.linearised.reaction,
+        summary: film.summary(),
+        tangent: found.linearised.tangent,
+        residual: found.residual,
+        table: found.table,
+        film_updates: found.film_updates + 1,
+        outcome: found.outcome,
+    })
+}
+
+/// Where the search begins.
+enum Start {
+    At(Coordinates),
+    Nowhere(Outcome),
+}
+
+struct Search<'a> {
+    balance: Balance,
+    limits: NewtonLimits,
+    clearance: f64,
+    conditions: &'a Conditions<'a>,
+}
+
+impl Search<'_> {
+    /// Start position: the given one, or on the short-bearing path after one probe of the film,
+    /// which also sets the force scale of an unloaded journal.
+    fn start(
+        &mut self,
+        film: &mut dyn FilmForce,
+        request: &EquilibriumRequest,
+    ) -> Result<Start, FilmError> {
+        let [load_x, load_y] = self.balance.load;
+        let load = load_x.hypot(load_y);
+        let sense = if request.frame.mean_speed() < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let load_angle = load_y.atan2(load_x);
+        let probe_eps: f64 = 0.5;
+        let probe = self.inside(film, self.on_path(probe_eps, load_angle, sense));
+        let state = with_motion(&self.balance.frame, probe, [0.0; 4]);
+        let answer = film.react(&state, Step::Steady, self.conditions)?;
+        if answer.outcome == Outcome::Starved {
+            return Ok(Start::Nowhere(answer.outcome));
+        }
+        let stiffness = answer
+            .tangent
+            .by_position
+            .iter()
+            .take(2)
+            .flat_map(|row| &row[..2])
+            .fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        self.balance.force_scale = load.max(UNLOADED_SHARE * stiffness * self.clearance);
+        if let Some([x, y]) = request.start {
+            let [tilt_x, tilt_y] = self.balance.frame.tilt;
+            return Ok(Start::At(self.inside(film, [x, y, tilt_x, tilt_y])));
+        }
+        let force = answer.reaction.force();
+        let size = force[0].hypot(force[1]);
+        if load > 0.0 && size <= 1e-9 * load && request.frame.mean_speed() == 0.0 {
+            return Ok(Start::Nowhere(Outcome::NoSolution));
+        }
+        let eps = match answer.outcome {
+            Outcome::Converged if size > 0.0 => {
+                short_eccentricity(load / size * path_force(probe_eps))
+            }
+            _ => 0.2,
+        };
+        Ok(Start::At(
+            self.inside(film, self.on_path(eps, load_angle, sense)),
+        ))
+    }
+
+    /// Point of the short-bearing path (Ocvirk's attitude angle) with the held tilt.
+    fn on_path(&self, eps: f64, load_angle: f64, sense: f64) -> Coordinates {
+        let [along, across] = short::ocvirk_force(eps);
+        let attitude = if eps == 0.0 {
+            0.0
+        } else {
+            across.atan2(-along)
+        };
+        let (sin, cos) = (load_angle + sense * attitude).sin_cos();
+        let distance = eps * self.clearance;
+        let [tilt_x, tilt_y] = self.balance.frame.tilt;
+        [distance * cos, distance * sin, tilt_x, tilt_y]
+    }
+
+    /// Moves a position towards the centre until at least a thousandth of the clearance is open at
+    /// the narrower end too (a tilted journal closes earlier), or half of what the centre has.
+    fn inside(&self, film: &dyn FilmForce, position: Coordinates) -> Coordinates {
+        let state = |p: Coordinates| with_motion(&self.balance.frame, p, [0.0; 4]);
+        let plain_gap = self.clearance - position[0].hypot(position[1]);
+        let mut inside = position;
+        for _ in 0..60 {
+            if film.minimum_gap(&state(inside)) >= 0.5 * plain_gap {
+                break;
+            }
+            inside[0] *= 0.9;
+            inside[1] *= 0.9;
+        }
+        inside
+    }
+
+    /// Lets the massless journal settle in implicit time steps, then tries Newton again.
+    fn settle(
+        &self,
+        film: &mut dyn FilmForce,
+        start: Coordinates,
+        first: Balanced,
+    ) -> Result<Balanced, FilmError> {
+        let speed = self.balance.frame.mean_speed().abs();
+        if speed == 0.0 {
+            return Ok(first);
+        }
+        let mut duration = 0.1 / speed;
+        let mut position = start.map(|value| 0.7 * value);
+        position[2] = start[2];
+        position[3] = start[3];
+        let mut last = first;
+        let mut film_updates = last.film_updates;
+        for step in 0..SETTLING_STEPS {
+            let mut balance = self.balance;
+            balance.motion = Motion::Moving {
+                anchor: position,
+                rate_anchor: [0.0; 4],
+                duration,
+                mass: 0.0,
+                step: Step::Steady,
+            };
+            let limits = NewtonLimits {
+                residual: 1e-3,
+                step: 1e-2,
+                ..self.limits
+            };
+            let moved = balance.find(film, self.conditions, position, &limits)?;
+            film_updates += moved.film_updates;
+            if moved.outcome == Outcome::Converged {
+                position = coordinates(&moved.state);
+                duration *= 2.0;
+            } else {
+                duration *= 0.25;
+            }
+            if step % 6 == 5 || duration * speed > 1e3 {
+                last = self
+                    .balance
+                    .find(film, self.conditions, position, &self.limits)?;
+                film_updates += last.film_updates;
+                last.film_updates = film_updates;
+                if last.outcome == Outcome::Converged || duration * speed > 1e6 {
+                    return Ok(last);
+                }
+            }
+            if duration * speed < 1e-6 {
+                break;
+            }
+        }
+        Ok(last)
+    }
+
+    /// No start was found: the probe's reaction with its outcome.
+    fn failed(&self, film: &mut dyn FilmForce, outcome: Outcome) -> Equilibrium {
+        Equilibrium {
+            state: self.balance.frame,
+            reaction: Reaction::default(),
+            summary: film.summary(),
+            tangent: Tangent::default(),
+            residual: f64::INFINITY,
+            table: Vec::new(),
+            film_updates: 1,
+            outcome,
+        }
+    }
+}
+
+/// Ocvirk's scaled force at an eccentricity.
+fn path_force(eps: f64) -> f64 {
+    let [along, across] = short::ocvirk_force(eps);
+    along.hypot(across)
+}
+
+/// Eccentricity at which Ocvirk's scaled force is `force`.
+fn short_eccentricity(force: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0 - 1e-9);
+    for _ in 0..60 {
+        let eps = 0.5 * (low + high);
+        if path_force(eps) < force {
+            low = eps;
+        } else {
+            high = eps;
+        }
+    }
+    0.5 * (low + high)
+}

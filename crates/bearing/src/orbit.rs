@@ -1,0 +1,477 @@
+//! Which orbit does the journal run under a periodic load?
+//!
+//! Equation: `force(position, rate, film content) + load(t) = mass x acceleration` over one period of
+//! the load table, with position (and film content) at its end as at its start.
+//! Unknowns: journal position, m, and tilt, rad, where the film answers to tilt and the table holds
+//! moments (else the tilt stays 0).
+//! Method: implicit in time ([`crate::time_step`]), steps adapted inside each output crank step
+//! ([`crate::step_control`]), journal and film brought to balance by one interleaved Newton
+//! ([`crate::balance`]); cycles are run until two successive ones agree.
+//! References: J. F. Booker, J. Basic Eng. 87 (1965) 537, 10.1115/1.3650602; P. K. Goenka, J.
+//! Tribol. 106 (1984) 421, 10.1115/1.3260949.
+
+use crate::balance::{NewtonLimits, add, coordinates, with_motion};
+use crate::cycle_table::CycleTable;
+use crate::equilibrium::{EquilibriumRequest, EquilibriumSettings, find_equilibrium};
+use crate::step_control::Substeps;
+use crate::time_step::{Moving, Stepper, Trial};
+use crate::{CyclePoint, JournalOrbit, LoadCycle};
+use serde::{Deserialize, Serialize};
+use sommerfeld_film::{
+    Bearing, Conditions, FilmError, FilmForce, FilmHistory, JournalState, Linearised, Outcome, Step,
+};
+use std::ops::ControlFlow;
+
+/// How the orbit is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct OrbitSettings {
+    /// Output crank step, rad; rounded so that a whole number fills the period. Default 1 degree.
+    pub crank_step: f64,
+    /// Largest error of one time step over the smallest gap, films without history (second order).
+    /// Default 1e-4.
+    pub error_tolerance: f64,
+    /// The same for films with history (first order). Default 2e-2.
+    pub history_error_tolerance: f64,
+    /// For the sake of that tolerance the crank step is halved at most this often. Cells of a film on
+    /// a grid that fill or rupture make the rate of a light journal jump; still shorter steps would
+    /// follow single cells and not the motion. Default 2.
+    pub history_halvings: u32,
+    /// Newton stops before a step smaller than this, over the smallest gap. Default 1e-5.
+    pub newton_tolerance: f64,
+    /// The same for films with history, whose time steps are coarser. Default 1e-4.
+    pub history_newton_tolerance: f64,
+    /// Film updates for one implicit stage. Default 20.
+    pub iteration_limit: usize,
+    /// Largest share of the smallest gap that one Newton step may take. Default 0.7.
+    pub largest_gap_loss: f64,
+    /// The output crank step is halved at most this often where Newton fails. Default 10.
+    pub largest_halvings: u32,
+    /// The orbit is closed when two cycles differ by less than this share of the radial clearance.
+    /// Default 1e-4.
+    pub closure_tolerance: f64,
+    /// Cycles at most. Default 8.
+    pub cycle_limit: usize,
+    /// Where the first cycle starts.
+    pub start: OrbitStart,
+}
+
+impl Default for OrbitSettings {
+    fn default() -> Self {
+        Self {
+            crank_step: std::f64::consts::PI / 180.0,
+            error_tolerance: 1e-4,
+            history_error_tolerance: 2e-2,
+            history_halvings: 2,
+            newton_tolerance: 1e-5,
+            history_newton_tolerance: 1e-4,
+            iteration_limit: 20,
+            largest_gap_loss: 0.7,
+            largest_halvings: 10,
+            closure_tolerance: 1e-4,
+            cycle_limit: 8,
+            start: OrbitStart::Equilibrium,
+        }
+    }
+}
+
+/// Where the first cycle starts.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OrbitStart {
+    /// At rest in the equilibrium of the first row with the film content that belongs to it; at half
+    /// eccentricity in the direction of the load, with a full film, if there is none.
+    Equilibrium,
+    /// At a given state (position and tilt, and the rates of a journal with mass) with the film
+    /// content that the film remembers.
+    At(JournalState),
+}
+
+/// How far the run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Number of the cycle, from 1.
+    pub cycle: usize,
+    /// Share of this cycle that is done.
+    pub fraction: f64,
+}
+
+/// Sees every output point of every cycle together with the film there (fields included) and may ask
+/// to stop. Called for the start once, then at the end of each output crank step.
+pub type Observer<'a> = dyn FnMut(&CyclePoint, &dyn FilmForce, Progress) -> ControlFlow<()> + 'a;
+
+/// From this level of halving on, a substep that fails is tried once more with patience.
+const PATIENT_LEVEL: u32 = 2;
+
+/// Limits for a journal that crosses an emptied gap: nothing holds it until it meets oil again, so
+/// that a shorter time step does not help, but many small Newton steps do.
+fn patient(limits: &NewtonLimits) -> NewtonLimits {
+    NewtonLimits {
+        iterations: 6 * limits.iterations,
+        gap_loss: 0.4 * limits.gap_loss,
+        ..*limits
+    }
+}
+
+/// Refused substeps at the finest level before the rest of an output crank step is given up.
+const LARGEST_FAILURES: usize = 3;
+
+/// Output points in a row that may fail before the run is given up.
+const LARGEST_FAILED_POINTS: usize = 10;
+
+/// Runs the journal through the load cycle until its orbit closes.
+///
+/// Points that do not converge are marked and passed over; where the film starves or has no solution,
+/// or the observer stops the run, the points of the unfinished cycle come back with
+/// [`Outcome::Starved`], [`Outcome::NoSolution`] or [`Outcome::NotConverged`].
+///
+/// # Errors
+/// [`FilmError::Unsupported`] for a load table that cannot be run, and what the film refuses.
+pub fn journal_orbit(
+    film: &mut dyn FilmForce,
+    bearing: &Bearing,
+    cycle: &LoadCycle,
+    conditions: &Conditions<'_>,
+    settings: &OrbitSettings,
+    observer: &mut Observer<'_>,
+) -> Result<JournalOrbit, FilmError> {
+    let mut run = Run::new(film, bearing, cycle, conditions, settings)?;
+    if let Some(outcome) = run.start(observer)? {
+        return Ok(run.orbit(1, f64::NAN, outcome));
+    }
+    let mut closure = f64::NAN;
+    for number in 1..=settings.cycle_limit.max(1) {
+        let before = std::mem::take(&mut run.points);
+        if let Some(last) = before.last() {
+            run.points.push(CyclePoint {
+                crank_angle: run.stepper.table.first_angle(),
+                ..*last
+            });
+        }
+        if let Some(outcome) = run.cycle(number, observer)? {
+            return Ok(run.orbit(number, closure, outcome));
+        }
+        closure = run.closure(&before, number).unwrap_or(closure);
+        if closure < settings.closure_tolerance {
+            let solved = run.points.iter().all(|p| p.outcome == Outcome::Converged);
+            let outcome = if solved {
+                Outcome::Converged
+            } else {
+                Outcome::NotConverged
+            };
+            return Ok(run.orbit(number, closure, outcome));
+        }
+    }
+    Ok(run.orbit(settings.cycle_limit.max(1), closure, Outcome::NotConverged))
+}
+
+/// A run in progress.
+struct Run<'a> {
+    film: &'a mut dyn FilmForce,
+    bearing: &'a Bearing,
+    settings: &'a OrbitSettings,
+    stepper: Stepper<'a>,
+    substeps: Substeps,
+    /// Crank angle of one output step, rad, and their number per period.
+    crank_step: f64,
+    count: usize,
+    moving: Moving,
+    /// Points of the present cycle.
+    points: Vec<CyclePoint>,
+    steps: usize,
+    failed_points: usize,
+}
+
+impl<'a> Run<'a> {
+    fn new(
+        film: &'a mut dyn FilmForce,
+        bearing: &'a Bearing,
+        cycle: &'a LoadCycle,
+        conditions: &'a Conditions<'a>,
+        settings: &'a OrbitSettings,
+    ) -> Result<Self, FilmError> {
+        let table = CycleTable::new(cycle)?;
+        if !(settings.crank_step.is_finite() && settings.crank_step > 0.0) {
+            return Err(FilmError::Unsupported {
+                reason: "the crank step must be positive",
+            });
+        }
+        let count = (cycle.period / settings.crank_step).round().max(1.0);
+        let capabilities = film.capabilities();
+        let stepper = Stepper {
+            conditions,
+            engine_speed: cycle.engine_speed,
+            mass: cycle.journal_mass,
+            with_tilt: capabilities.accepts_tilt && table.has_moments(),
+            arm: 0.5 * bearing.width,
+            force_scale: table.largest_load().max(f64::MIN_POSITIVE),
+            limits: NewtonLimits {
+                iterations: settings.iteration_limit,
+                residual: 1e-3,
+                step: if capabilities.has_history {
+                    settings.history_newton_tolerance
+                } else {
+                    settings.newton_tolerance
+                },
+                gap_loss: settings.largest_gap_loss,
+                takes_last_step: !capabilities.has_history,
+            },
+            has_history: capabilities.has_history,
+            film_solves: 0,
+            table,
+        };
+        Ok(Self {
+            moving: Moving {
+                crank_angle: stepper.table.first_angle(),
+                position: [0.0; 4],
+                rate: [0.0; 4],
+                slope: [0.0; 4],
+                rate_is_known: false,
+            },
+            film,
+            bearing,
+            settings,
+            stepper,
+            substeps: Substeps::new(settings.largest_halvings.min(40)),
+            crank_step: cycle.period / count,
+            count: count as usize,
+            points: Vec::new(),
+            steps: 0,
+            failed_points: 0,
+        })
+    }
+
+    /// Start state, its rate and the first point.
+    fn start(&mut self, observer: &mut Observer<'_>) -> Result<Option<Outcome>, FilmError> {
+        let (state, history) = self.start_state()?;
+        self.moving.position = coordinates(&state);
+        if self.stepper.mass > 0.0 {
+            let ([x, y], [tilt_x, tilt_y]) = (state.velocity, state.tilt_rate);
+            self.moving.rate = [x, y, tilt_x, tilt_y];
+        }
+        let (state, linearised) = if self.stepper.has_history {
+            let linearised = self
+                .film
+                .react(&state, Step::Steady, self.stepper.conditions)?;
+            (state, linearised)
+        } else {
+            let trial = self
+                .stepper
+                .start_motion(self.film, &self.moving, self.crank_step)?;
+            self.moving = trial.end;
+            (
+                with_motion(&trial.state, trial.end.position, trial.end.rate),
+                trial.linearised,
+            )
+        };
+        let stopped = self.publish(&state, &linearised, linearised.outcome, 1, observer);
+        self.film.reject_step();
+        self.film.restore(&history);
+        Ok(stopped)
+    }
+
+    /// First state, and the film content that it starts from.
+    fn start_state(&mut self) -> Result<(JournalState, FilmHistory), FilmError> {
+        let first = self.stepper.table.first_angle();
+        let frame = self.stepper.table.frame(first);
+        if let OrbitStart::At(state) = self.settings.start {
+            let motion = with_motion(&frame, coordinates(&state), [0.0; 4]);
+            let state = JournalState {
+                velocity: state.velocity,
+                tilt_rate: state.tilt_rate,
+                ..motion
+            };
+            return Ok((state, self.film.history()));
+        }
+        self.film.restore(&FilmHistory::default());
+        let point = self.stepper.table.at(first);
+        let request = EquilibriumRequest {
+            load: point.load,
+            moment: self.stepper.with_tilt.then_some(point.moment),
+            frame,
+            start: None,
+            settings: EquilibriumSettings {
+                residual_tolerance: 1e-6,
+                ..EquilibriumSettings::default()
+            },
+        };
+        let found = find_equilibrium(self.film, self.bearing, &request, self.stepper.conditions)?;
+        self.stepper.film_solves += found.film_updates;
+        if found.outcome == Outcome::Converged {
+            self.film.accept_step();
+            return Ok((found.state, self.film.history()));
+        }
+        let load = point.load[0].hypot(point.load[1]).max(f64::MIN_POSITIVE);
+        let half = 0.5 * self.bearing.radial_clearance / load;
+        let state = JournalState {
+            position: point.load.map(|component| half * component),
+            ..frame
+        };
+        Ok((state, FilmHistory::default()))
+    }
+
+    /// One cycle; an outcome if the run ends within it.
+    fn cycle(
+        &mut self,
+        number: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<Option<Outcome>, FilmError> {
+        let start = self.moving.crank_angle;
+        for step in 1..=self.count {
+            let from = self.moving.crank_angle;
+            let (state, linearised, outcome) = self.output_step(from)?;
+            // Sums of many substeps must not drift off the output crank angles.
+            self.moving.crank_angle = start + step as f64 * self.crank_step;
+            if matches!(outcome, Outcome::Starved | Outcome::NoSolution) {
+                return Ok(Some(outcome));
+            }
+            let stopped = self.publish(&state, &linearised, outcome, number, observer);
+            self.film.accept_step();
+            if stopped.is_some() {
+                return Ok(stopped);
+            }
+            self.failed_points = if outcome == Outcome::Converged {
+                0
+            } else {
+                self.failed_points + 1
+            };
+            if self.failed_points > LARGEST_FAILED_POINTS {
+                return Ok(Some(Outcome::NotConverged));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Substeps through one output crank step. The last accepted one is left to the caller to accept
+    /// in the film, after the film has been looked at.
+    fn output_step(&mut self, from: f64) -> Result<(JournalState, Linearised, Outcome), FilmError> {
+        let settings = self.settings;
+        // The error of a step of order p falls by 2^(p+1) with its length: room for twice the length.
+        let (tolerance, finest, room) = if self.stepper.has_history {
+            let tolerance = settings.history_error_tolerance;
+            (tolerance, settings.history_halvings, 0.2)
+        } else {
+            (settings.error_tolerance, settings.largest_halvings, 0.1)
+        };
+        let mut failures = 0;
+        let mut outcome = Outcome::Converged;
+        self.substeps.begin();
+        loop {
+            self.moving.crank_angle = from + self.substeps.position() * self.crank_step;
+            let angle = self.substeps.length() * self.crank_step;
+            let mut trial = self.stepper.try_step(self.film, &self.moving, angle)?;
+            if trial.outcome == Outcome::NotConverged && self.substeps.level() >= PATIENT_LEVEL {
+                self.film.reject_step();
+                let hasty = self.stepper.limits;
+                self.stepper.limits = patient(&hasty);
+                let again = self.stepper.try_step(self.film, &self.moving, angle);
+                self.stepper.limits = hasty;
+                trial = again?;
+            }
+            let solved = trial.outcome == Outcome::Converged;
+            let accurate = trial.error <= tolerance || self.substeps.level() >= finest;
+            if !(solved && accurate) && self.substeps.halve() {
+                self.film.reject_step();
+                continue;
+            }
+            if matches!(trial.outcome, Outcome::Starved | Outcome::NoSolution) {
+                self.film.reject_step();
+                return Ok((trial.state, trial.linearised, trial.outcome));
+            }
+            let trial = if solved {
+                trial
+            } else {
+                outcome = Outcome::NotConverged;
+                failures += 1;
+                self.passed_over(&trial, failures)
+            };
+            self.moving = trial.end;
+            self.steps += 1;
+            self.substeps
+                .advance(solved && trial.error < room * tolerance);
+            if self.substeps.at_end() {
+                return Ok((trial.state, trial.linearised, outcome));
+            }
+            self.film.accept_step();
+        }
+    }
+
+    /// A substep that does not converge even at the finest level: its best iterate, then at rest;
+    /// after several of them the journal rests where it is to the end of the output crank step.
+    fn passed_over(&mut self, trial: &Trial, failures: usize) -> Trial {
+        let mut kept = *trial;
+        if failures >= LARGEST_FAILURES {
+            self.substeps.skip_to_end();
+        }
+        let gap = self.film.minimum_gap(&trial.state);
+        if !gap.is_finite() {
+            kept.end.position = self.moving.position;
+        }
+        kept.end.rate = [0.0; 4];
+        kept.end.slope = [0.0; 4];
+        kept.end.rate_is_known = false;
+        kept.state = with_motion(&trial.state, kept.end.position, kept.end.rate);
+        kept
+    }
+
+    /// Adds a point and shows it; an outcome if the observer asks to stop.
+    fn publish(
+        &mut self,
+        state: &JournalState,
+        linearised: &Linearised,
+        outcome: Outcome,
+        number: usize,
+        observer: &mut Observer<'_>,
+    ) -> Option<Outcome> {
+        let load = self.stepper.table.at(self.moving.crank_angle);
+        let index = self.points.len();
+        let point = CyclePoint {
+            crank_angle: self.stepper.table.first_angle() + index as f64 * self.crank_step,
+            load: load.load,
+            moment: load.moment,
+            state: *state,
+            reaction: linearised.reaction,
+            summary: self.film.summary(),
+            outcome,
+        };
+        self.points.push(point);
+        let progress = Progress {
+            cycle: number,
+            fraction: index as f64 / self.count as f64,
+        };
+        match observer(&point, &*self.film, progress) {
+            ControlFlow::Continue(()) => None,
+            ControlFlow::Break(()) => Some(Outcome::NotConverged),
+        }
+    }
+
+    /// Largest distance from the cycle before, over the clearance. The first cycle has none before it,
+    /// but under a constant load it is closed if the journal stayed where it began.
+    fn closure(&self, before: &[CyclePoint], number: usize) -> Option<f64> {
+        let distance = |a: &CyclePoint, b: &CyclePoint| {
+            let change = add(coordinates(&a.state), -1.0, coordinates(&b.state));
+            change[0].hypot(change[1]) / self.bearing.radial_clearance
+        };
+        let largest = |distances: &mut dyn Iterator<Item = f64>| distances.fold(0.0, f64::max);
+        if number > 1 {
+            let mut distances = self.points.iter().zip(before).map(|(a, b)| distance(a, b));
+            return Some(largest(&mut distances));
+        }
+        let first = self.points.first()?;
+        let mut distances = self.points.iter().map(|point| distance(point, first));
+        self.stepper
+            .table
+            .is_constant()
+            .then(|| largest(&mut distances))
+    }
+
+    fn orbit(self, cycles: usize, closure: f64, outcome: Outcome) -> JournalOrbit {
+        JournalOrbit {
+            points: self.points,
+            cycles,
+            closure,
+            steps: self.steps,
+            film_solves: self.stepper.film_solves,
+            outcome,
+        }
+    }
+}

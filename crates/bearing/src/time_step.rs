@@ -1,0 +1,280 @@
+//! Where is the journal one time step later?
+//!
+//! Equation: `force(position, rate) + load(t) = mass x acceleration`; massless: an implicit equation
+//! for the rate. Unknown of every implicit stage: the position (and tilt) at its end.
+//! Films without history: TR-BDF2, second order and L-stable (a thin film is stiff, a massive journal
+//! on it stiffer), two implicit stages; the error estimate is its embedded third-order pair, taken
+//! on the position. Films with history store their content by backward Euler, so the journal
+//! moves by backward Euler too; its error is half the step times the change of rate.
+//! Estimates are relative to the smallest gap.
+//! References: R. E. Bank et al., IEEE Trans. CAD 4 (1985) 436, 10.1109/TCAD.1985.1270142; M. E.
+//! Hosea, L. F. Shampine, Appl. Numer. Math. 20 (1996) 21, 10.1016/0168-9274(95)00115-8.
+
+use crate::balance::{
+    Balance, Balanced, Coordinates, Motion, NewtonLimits, add, coordinates, length, with_motion,
+};
+use crate::cycle_table::CycleTable;
+use sommerfeld_film::{Conditions, FilmError, FilmForce, JournalState, Linearised, Outcome, Step};
+use std::f64::consts::SQRT_2;
+
+/// Share of the step that the trapezoidal stage of TR-BDF2 takes: 2 - sqrt 2.
+const FIRST_STAGE: f64 = 2.0 - SQRT_2;
+/// Diagonal weight of both implicit stages.
+const DIAGONAL: f64 = 0.5 * FIRST_STAGE;
+/// Weight of the first two rates in the last stage.
+const WEIGHT: f64 = 0.25 * SQRT_2;
+/// Weights of the solution minus those of the embedded third-order one.
+const ERROR_WEIGHTS: [f64; 3] = [
+    WEIGHT - (1.0 - WEIGHT) / 3.0,
+    WEIGHT - (3.0 * WEIGHT + 1.0) / 3.0,
+    DIAGONAL - DIAGONAL / 3.0,
+];
+
+/// The journal in motion.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moving {
+    /// Rad, counted on over the cycles.
+    pub crank_angle: f64,
+    /// m and rad.
+    pub position: Coordinates,
+    /// m/s and rad/s.
+    pub rate: Coordinates,
+    /// Change of the rate per time, m/s2 and rad/s2: the acceleration of a journal with mass, an
+    /// extrapolation for one without.
+    pub slope: Coordinates,
+    /// The rate is one of the motion, not a mere start value.
+    pub rate_is_known: bool,
+}
+
+/// A tried step.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Trial {
+    pub end: Moving,
+    pub state: JournalState,
+    pub linearised: Linearised,
+    /// Estimated error of the position over the smallest gap.
+    pub error: f64,
+    pub outcome: Outcome,
+}
+
+/// What all steps of a run share.
+#[derive(Debug, Clone)]
+pub(crate) struct Stepper<'a> {
+    pub table: CycleTable<'a>,
+    pub conditions: &'a Conditions<'a>,
+    /// Crank speed, rad/s.
+    pub engine_speed: f64,
+    /// kg.
+    pub mass: f64,
+    pub with_tilt: bool,
+    /// Half the bearing width, m.
+    pub arm: f64,
+    /// Largest load of the cycle, N.
+    pub force_scale: f64,
+    pub limits: NewtonLimits,
+    pub has_history: bool,
+    /// Film updates so far.
+    pub film_solves: usize,
+}
+
+impl Stepper<'_> {
+    /// One step of `angle` (rad of crank angle) from `from`.
+    pub(crate) fn try_step(
+        &mut self,
+        film: &mut dyn FilmForce,
+        from: &Moving,
+        angle: f64,
+    ) -> Result<Trial, FilmError> {
+        if self.has_history {
+            self.backward_euler(film, from, angle)
+        } else {
+            self.second_order(film, from, angle)
+        }
+    }
+
+    fn second_order(
+        &mut self,
+        film: &mut dyn FilmForce,
+        from: &Moving,
+        angle: f64,
+    ) -> Result<Trial, FilmError> {
+        let duration = angle / self.engine_speed;
+        let stage = DIAGONAL * duration;
+        let middle_motion = Motion::Moving {
+            anchor: add(from.position, stage, from.rate),
+            rate_anchor: add(from.rate, stage, from.slope),
+            duration: stage,
+            mass: self.mass,
+            step: Step::Steady,
+        };
+        let middle_angle = from.crank_angle + FIRST_STAGE * angle;
+        let guess = extrapolated(from, FIRST_STAGE * duration, from.slope);
+        let middle = self.solve(film, middle_motion, middle_angle, from.position, guess)?;
+        if middle.outcome != Outcome::Converged {
+            return Ok(self.trial(film, from, angle, &middle, middle_motion));
+        }
+        let middle_position = coordinates(&middle.state);
+        let middle_rate = middle_motion.rate(middle_position);
+        let middle_slope = middle_motion.acceleration(middle_position);
+
+        let weight = WEIGHT * duration;
+        let both = |a: Coordinates, b: Coordinates| add(a, 1.0, b);
+        let motion = Motion::Moving {
+            anchor: add(from.position, weight, both(from.rate, middle_rate)),
+            rate_anchor: add(from.rate, weight, both(from.slope, middle_slope)),
+            duration: stage,
+            mass: self.mass,
+            step: Step::Steady,
+        };
+        let slope = divided(add(middle_rate, -1.0, from.rate), FIRST_STAGE * duration);
+        let guess = extrapolated(from, duration, slope);
+        let end = self.solve(film, motion, from.crank_angle + angle, from.position, guess)?;
+        let mut trial = self.trial(film, from, angle, &end, motion);
+        let rates = [from.rate, middle_rate, trial.end.rate];
+        let error = ERROR_WEIGHTS
+            .iter()
+            .zip(rates)
+            .fold([0.0; 4], |sum, (weight, rate)| {
+                add(sum, weight * duration, rate)
+            });
+        trial.error = length(error, self.arm) / self.smallest_gap(film, from, &trial.state);
+        if self.mass == 0.0 {
+            let rest = (1.0 - FIRST_STAGE) * duration;
+            trial.end.slope = divided(add(trial.end.rate, -1.0, middle_rate), rest);
+        }
+        Ok(trial)
+    }
+
+    fn backward_euler(
+        &mut self,
+        film: &mut dyn FilmForce,
+        from: &Moving,
+        angle: f64,
+    ) -> Result<Trial, FilmError> {
+        let duration = angle / self.engine_speed;
+        let motion = Motion::Moving {
+            anchor: from.position,
+            rate_anchor: from.rate,
+            duration,
+            mass: self.mass,
+            step: Step::Implicit { duration },
+        };
+        // Backward Euler moves by the rate at the END of the step.
+        let guess = add(
+            from.position,
+            duration,
+            add(from.rate, duration, from.slope),
+        );
+        let end = self.solve(film, motion, from.crank_angle + angle, from.position, guess)?;
+        let mut trial = self.trial(film, from, angle, &end, motion);
+        let change = add(trial.end.rate, -1.0, from.rate);
+        if from.rate_is_known {
+            trial.error = 0.5 * duration * length(change, self.arm)
+                / self.smallest_gap(film, from, &trial.state);
+            trial.end.slope = divided(change, duration);
+        } else {
+            trial.end.slope = [0.0; 4];
+        }
+        Ok(trial)
+    }
+
+    /// Rate of the massless journal at its start (films without history), from an implicit step so
+    /// short that the position stays; acceleration of a journal with mass from its force.
+    pub(crate) fn start_motion(
+        &mut self,
+        film: &mut dyn FilmForce,
+        start: &Moving,
+        angle: f64,
+    ) -> Result<Trial, FilmError> {
+        let motion = Motion::Moving {
+            anchor: start.position,
+            rate_anchor: start.rate,
+            duration: 1e-3 * angle / self.engine_speed,
+            mass: self.mass,
+            step: Step::Steady,
+        };
+        let tolerance = self.limits.step;
+        self.limits.step *= 1e-4;
+        let balanced = self.solve(
+            film,
+            motion,
+            start.crank_angle,
+            start.position,
+            start.position,
+        );
+        self.limits.step = tolerance;
+        let mut trial = self.trial(film, start, 0.0, &balanced?, motion);
+        trial.end.position = start.position;
+        if self.mass == 0.0 {
+            trial.end.slope = [0.0; 4];
+        }
+        Ok(trial)
+    }
+
+    /// The balance at a crank angle, from a guess that keeps the gap of `safe` open.
+    fn solve(
+        &mut self,
+        film: &mut dyn FilmForce,
+        motion: Motion,
+        crank_angle: f64,
+        safe: Coordinates,
+        guess: Coordinates,
+    ) -> Result<Balanced, FilmError> {
+        let point = self.table.at(crank_angle);
+        let mut frame = self.table.frame(crank_angle);
+        frame.tilt = [safe[2], safe[3]];
+        let balance = Balance {
+            load: point.load,
+            moment: point.moment,
+            with_tilt: self.with_tilt,
+            frame,
+            motion,
+            force_scale: self.force_scale,
+            arm: self.arm,
+        };
+        let jump = add(guess, -1.0, safe);
+        let share = balance.allowed_share(film, safe, jump, self.limits.gap_loss);
+        let found = balance.find(film, self.conditions, add(safe, share, jump), &self.limits)?;
+        self.film_solves += found.film_updates;
+        Ok(found)
+    }
+
+    fn trial(
+        &self,
+        film: &dyn FilmForce,
+        from: &Moving,
+        angle: f64,
+        balanced: &Balanced,
+        motion: Motion,
+    ) -> Trial {
+        let position = coordinates(&balanced.state);
+        debug_assert!(film.minimum_gap(&balanced.state).is_finite());
+        Trial {
+            end: Moving {
+                crank_angle: from.crank_angle + angle,
+                position,
+                rate: motion.rate(position),
+                slope: motion.acceleration(position),
+                rate_is_known: balanced.outcome == Outcome::Converged,
+            },
+            state: balanced.state,
+            linearised: balanced.linearised,
+            error: 0.0,
+            outcome: balanced.outcome,
+        }
+    }
+
+    fn smallest_gap(&self, film: &dyn FilmForce, from: &Moving, end: &JournalState) -> f64 {
+        let start = with_motion(end, from.position, from.rate);
+        film.minimum_gap(&start).min(film.minimum_gap(end)).abs()
+    }
+}
+
+fn divided(vector: Coordinates, by: f64) -> Coordinates {
+    vector.map(|value| value / by)
+}
+
+fn extrapolated(from: &Moving, duration: f64, slope: Coordinates) -> Coordinates {
+    let moved = add(from.position, duration, from.rate);
+    add(moved, 0.5 * duration * duration, slope)
+}

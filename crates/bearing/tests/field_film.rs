@@ -1,0 +1,174 @@
+//! Equilibrium and orbit over the film on a grid, whose cavitated set settles while the journal moves.
+#![allow(clippy::unwrap_used)]
+
+mod common;
+
+use common::{CONDITIONS, plain_bearing, table};
+use sommerfeld_bearing::{
+    EquilibriumRequest, EquilibriumSettings, LoadCycle, LoadPoint, OrbitSettings, find_equilibrium,
+    journal_orbit,
+};
+use sommerfeld_film::{
+    Bearing, Carrier, Cavitation, Feed, FeedShape, FilmForce, FilmShear, FilmSolver, JournalState,
+    Outcome,
+};
+use sommerfeld_oil::Lubricant;
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+fn big_end(shape: FeedShape, carried_by: Carrier) -> Bearing {
+    let mut bearing = plain_bearing(0.072, 0.030, 36e-6);
+    bearing.cavitation = Cavitation::MassConserving;
+    bearing.film_shear = FilmShear::FilmFraction;
+    bearing.feeds.push(Feed {
+        shape,
+        carried_by,
+        angle: 0.5 * PI,
+        position: 0.0,
+        pressure: 5e5,
+    });
+    bearing
+}
+
+/// Aligned and tilted by a moment: journal and cavitated set settle in one iteration.
+#[test]
+fn grooved_bearing_comes_to_rest() {
+    let groove = FeedShape::Circumferential { width: 6e-3 };
+    let bearing = big_end(groove, Carrier::Shell);
+    let oil = Lubricant::constant(8e-3, 850.0);
+    let mut film = FilmSolver::new(&bearing, &oil, [64, 20]).unwrap();
+    for moment in [None, Some([1.0, 0.5]), Some([20.0, 10.0])] {
+        let request = EquilibriumRequest {
+            load: [0.0, -8000.0],
+            moment,
+            frame: JournalState {
+                journal_speed: 209.4395,
+                ..JournalState::default()
+            },
+            start: None,
+            settings: EquilibriumSettings::default(),
+        };
+        let found = find_equilibrium(&mut film, &bearing, &request, &CONDITIONS).unwrap();
+        assert_eq!(found.outcome, Outcome::Converged, "{:#?}", found.table);
+        assert!(found.residual < 1e-9);
+        assert!(found.iterations() <= 25, "{:#?}", found.table);
+        let [fx, fy] = found.reaction.force();
+        assert!(fx.abs() < 1e-4 && (fy - 8000.0).abs() < 1e-4);
+        assert!(found.summary.mass_balance_relative < 1e-8);
+    }
+}
+
+/// The loads of a diesel big end.
+fn diesel_cycle() -> LoadCycle {
+    let points: Vec<LoadPoint> = table("../examples/02-big-end-diesel/loads.csv")
+        .iter()
+        .map(|row| LoadPoint {
+            crank_angle: row[0].to_radians(),
+            load: [row[1], row[2]],
+            moment: [0.0; 2],
+            journal_speed: row[3],
+            shell_speed: 0.0,
+        })
+        .collect();
+    LoadCycle {
+        points,
+        period: 4.0 * PI,
+        engine_speed: 2000.0 * PI / 30.0,
+        journal_mass: 0.0,
+    }
+}
+
+/// Oil from a hole in the journal: the film remembers, and every point converges.
+#[test]
+fn mass_conserving_big_end_runs_through_its_cycle() {
+    let bearing = big_end(FeedShape::Hole { diameter: 6e-3 }, Carrier::Journal);
+    let oil = Lubricant::constant(8e-3, 850.0);
+    let mut film = FilmSolver::new(&bearing, &oil, [48, 8]).unwrap();
+    let settings = OrbitSettings {
+        crank_step: 2.0 * PI / 180.0,
+        cycle_limit: 2,
+        ..OrbitSettings::default()
+    };
+    let cycle = diesel_cycle();
+    let mut fields = 0;
+    let mut observer = |_: &_, film: &dyn FilmForce, _| {
+        fields += usize::from(film.field().is_some());
+        ControlFlow::Continue(())
+    };
+    let orbit = journal_orbit(
+        &mut film,
+        &bearing,
+        &cycle,
+        &CONDITIONS,
+        &settings,
+        &mut observer,
+    )
+    .unwrap();
+    let end = orbit.points[orbit.points.len() - 1];
+    assert_eq!(orbit.points.len(), 361, "{:?} {end:#?}", orbit.outcome);
+    assert_eq!(fields, 721);
+    assert!(orbit.points.iter().all(|p| p.outcome == Outcome::Converged));
+    let worst = orbit
+        .points
+        .iter()
+        .skip(1)
+        .map(|point| point.summary.mass_balance_relative)
+        .fold(0.0, f64::max);
+    assert!(worst < 1e-7, "{worst:e}");
+    assert!(orbit.film_solves < 15 * 2 * 360, "{}", orbit.film_solves);
+}
+
+/// The one-axis cycle with the finite film (validation/flores-2006/reference_finite.csv).
+#[test]
+fn finite_film_on_the_one_axis_cycle() {
+    let mut bearing = plain_bearing(0.0635, 0.0254, 35.56e-6);
+    bearing.cavitation = Cavitation::Reynolds;
+    let speed = 2000.0 * PI / 30.0;
+    let points = table("flores-2006/load.csv")
+        .iter()
+        .map(|row| LoadPoint {
+            crank_angle: row[0].to_radians(),
+            load: [row[1], 0.0],
+            moment: [0.0; 2],
+            journal_speed: 2.0 * speed,
+            shell_speed: 0.0,
+        })
+        .collect();
+    let cycle = LoadCycle {
+        points,
+        period: 4.0 * PI,
+        engine_speed: speed,
+        journal_mass: 0.0,
+    };
+    let oil = Lubricant::constant(0.00416, 850.0);
+    let mut film = FilmSolver::new(&bearing, &oil, [64, 8]).unwrap();
+    let settings = OrbitSettings {
+        crank_step: 4.0 * PI / 180.0,
+        error_tolerance: 1e-3,
+        ..OrbitSettings::default()
+    };
+    let orbit = journal_orbit(
+        &mut film,
+        &bearing,
+        &cycle,
+        &CONDITIONS,
+        &settings,
+        &mut |_, _, _| ControlFlow::Continue(()),
+    )
+    .unwrap();
+    assert_eq!(
+        orbit.outcome,
+        Outcome::Converged,
+        "closure {}",
+        orbit.closure
+    );
+    let reference = table("flores-2006/reference_finite.csv")
+        .iter()
+        .map(|row| row[row.len() - 1])
+        .fold(f64::INFINITY, f64::min);
+    let smallest = orbit.minimum_film_thickness().unwrap().0.value * 1e6;
+    assert!(
+        (smallest / reference - 1.0).abs() < 0.02,
+        "{smallest} {reference}"
+    );
+}

@@ -1,0 +1,484 @@
+//! Bearing, grooves and oil.
+
+use super::{Checker, as_number, as_text, value_in};
+use crate::input::error::InputError;
+use crate::input::read::{Entries, MOST_ERRORS};
+use crate::input::study::FilmModel;
+use crate::input::values::Value;
+use sommerfeld_film::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Relative clearances outside this range are more often a slip of the unit than a bearing.
+const USUAL_CLEARANCE: Range<f64> = 1e-4..1e-2;
+
+/// The closures and boundaries of the film, as `[film]` gives them.
+pub(super) struct FilmRules {
+    pub(super) cavitation: Cavitation,
+    pub(super) inlet: Inlet,
+    pub(super) ends: Ends,
+    pub(super) film_shear: FilmShear,
+}
+
+impl Checker<'_> {
+    /// The bearing with its supply and film rules.
+    pub(super) fn bearing(&mut self) -> Option<Bearing> {
+        let diameter = self.number("bearing.diameter");
+        let width = self.number("bearing.width");
+        let clearance = self.radial_clearance(diameter);
+        let rules = self.film_rules();
+        let ambient_pressure = self.number("film.ambient_pressure");
+        let cavitation_pressure = self.number("film.cavitation_pressure");
+        let mut bearing = Bearing {
+            diameter: diameter?,
+            width: width?,
+            radial_clearance: clearance?,
+            feeds: Vec::new(),
+            ambient_pressure: ambient_pressure?,
+            cavitation_pressure: cavitation_pressure?,
+            ends: rules.as_ref()?.ends,
+            inlet: rules.as_ref()?.inlet,
+            cavitation: rules.as_ref()?.cavitation,
+            film_shear: rules.as_ref()?.film_shear,
+        };
+        self.check_pressures(&bearing);
+        bearing.feeds = self.feeds(&bearing);
+        Some(bearing)
+    }
+
+    /// Radial clearance from whichever of the two keys is given, m.
+    fn radial_clearance(&mut self, diameter: Option<f64>) -> Option<f64> {
+        const DIAMETRAL: &str = "bearing.diametral_clearance";
+        const RELATIVE: &str = "bearing.relative_clearance";
+        let section = self.entry("bearing").map(|entry| entry.key_span.clone())?;
+        let given = |path| self.reading.was_given(path);
+        let error = match (given(DIAMETRAL), given(RELATIVE)) {
+            (true, true) => self
+                .error_at(RELATIVE, "the clearance is given twice")
+                .allowing("diametral_clearance or relative_clearance"),
+            (false, false) => self
+                .reading
+                .error(&section, "the clearance of the bearing is missing")
+                .with_value("")
+                .of_key(DIAMETRAL)
+                .allowing("diametral_clearance or relative_clearance")
+                .hinting("diametral_clearance is bore diameter minus journal diameter"),
+            _ => return self.one_clearance(diameter?),
+        };
+        self.errors.push(error);
+        None
+    }
+
+    fn one_clearance(&mut self, diameter: f64) -> Option<f64> {
+        let (path, relative) = match self.number("bearing.diametral_clearance") {
+            Some(clearance) => ("bearing.diametral_clearance", clearance / diameter),
+            None => (
+                "bearing.relative_clearance",
+                self.number("bearing.relative_clearance")?,
+            ),
+        };
+        if relative >= 1.0 {
+            let error = self.error_at(path, format!("`{path}` is not below the diameter"));
+            self.errors.push(error);
+            return None;
+        }
+        if !USUAL_CLEARANCE.contains(&relative) {
+            let message = format!("the relative clearance is {relative:.2e}, which is unusual");
+            let note = self.error_at(path, message).hinting(
+                "usual are 0.7e-3 to 2e-3, that is 0.7 to 2 um per mm of diameter; is the unit right?",
+            );
+            self.warnings.push(note);
+        }
+        Some(0.5 * relative * diameter)
+    }
+
+    /// Ends and feeds at or above the cavitation pressure.
+    fn check_pressures(&mut self, bearing: &Bearing) {
+        const AMBIENT: &str = "film.ambient_pressure";
+        const CAVITATION: &str = "film.cavitation_pressure";
+        let path = if self.entry(AMBIENT).is_some() {
+            AMBIENT
+        } else {
+            CAVITATION
+        };
+        if bearing.ambient_pressure < bearing.cavitation_pressure {
+            let error = self
+                .error_at(
+                    path,
+                    "the ambient pressure is below the cavitation pressure",
+                )
+                .hinting(
+                    "a film in surroundings below its cavitation pressure cannot be full anywhere",
+                );
+            self.errors.push(error);
+        }
+        if let Inlet::MaxFilmLine { pressure } = bearing.inlet
+            && pressure < bearing.cavitation_pressure
+        {
+            let error = self.error_at(
+                "film.inlet_pressure",
+                "the inlet pressure is below the cavitation pressure",
+            );
+            self.errors.push(error);
+        }
+    }
+
+    /// Closures and boundaries from `[film]`. The closed forms have their own: what contradicts
+    /// them is refused.
+    pub(super) fn film_rules(&mut self) -> Option<FilmRules> {
+        let model = self.film_model()?;
+        if !model.is_field() {
+            self.refuse_rules_of_field(model);
+        }
+        let cavitation = match self.text("film.cavitation")?.as_str() {
+            _ if !model.is_field() => Cavitation::Gumbel,
+            "gumbel" => Cavitation::Gumbel,
+            "reynolds" => Cavitation::Reynolds,
+            _ => Cavitation::MassConserving,
+        };
+        let inlet = match self.text("film.inlet")?.as_str() {
+            "max-film-line" => Inlet::MaxFilmLine {
+                pressure: self.number("film.inlet_pressure")?,
+            },
+            _ => Inlet::Cyclic,
+        };
+        if inlet == Inlet::Cyclic && self.entry("film.inlet_pressure").is_some() {
+            let error = self
+                .error_at("film.inlet_pressure", "a cyclic inlet has no pressure")
+                .hinting("give inlet = \"max-film-line\" or take inlet_pressure out");
+            self.errors.push(error);
+        }
+        let ends = match self.text("film.ends")?.as_str() {
+            "flooded" => Ends::Flooded,
+            _ => Ends::Air,
+        };
+        let film_shear = match self.text("film.film_shear").as_deref() {
+            Some("full-width") => FilmShear::FullWidth,
+            Some(_) => FilmShear::FilmFraction,
+            None if cavitation == Cavitation::MassConserving => FilmShear::FilmFraction,
+            None => FilmShear::FullWidth,
+        };
+        Some(FilmRules {
+            cavitation,
+            inlet,
+            ends,
+            film_shear,
+        })
+    }
+
+    fn refuse_rules_of_field(&mut self, model: FilmModel) {
+        const RULES: [(&str, &str); 4] = [
+            ("film.cavitation", "gumbel"),
+            ("film.inlet", "cyclic"),
+            ("film.ends", "air"),
+            ("film.film_shear", "full-width"),
+        ];
+        for (path, own) in RULES {
+            let given = self.entry(path).map(|entry| entry.value.clone());
+            if matches!(given, Some(Value::Text(word)) if word != own) {
+                let message = format!("the model {} cannot do this", model.name());
+                let error = self
+                    .error_at(path, message)
+                    .allowing(format!("\"{own}\""))
+                    .hinting("use model = \"field\"");
+                self.errors.push(error);
+            }
+        }
+        for path in ["film.ambient_pressure", "film.cavitation_pressure"] {
+            if self.entry(path).is_some()
+                && self.number("film.ambient_pressure") != self.number("film.cavitation_pressure")
+            {
+                let message = format!(
+                    "the model {} needs equal ambient and cavitation pressure",
+                    model.name()
+                );
+                let error = self
+                    .error_at(path, message)
+                    .hinting("use model = \"field\"");
+                self.errors.push(error);
+                break;
+            }
+        }
+        let grooves = self.reading.grooves.first().map(|(span, _)| span.clone());
+        if let Some(span) = grooves {
+            let message = format!(
+                "the model {} has no grooves: they are not used",
+                model.name()
+            );
+            let note = self.reading.error(&span, message).of_key("bearing.groove");
+            self.warnings.push(note.hinting("use model = \"field\""));
+        }
+    }
+
+    fn feeds(&mut self, bearing: &Bearing) -> Vec<Feed> {
+        let mut feeds = Vec::new();
+        let mut errors = Vec::new();
+        for (header, entries) in &self.reading.grooves {
+            if errors.len() >= MOST_ERRORS {
+                break;
+            }
+            let groove = GrooveCheck {
+                checker: self,
+                header,
+                entries,
+                bearing,
+            };
+            match groove.feed() {
+                Ok(feed) => feeds.push(feed),
+                Err(error) => errors.extend(error),
+            }
+        }
+        self.errors.extend(errors);
+        feeds
+    }
+
+    /// The oil, with its laws checked at the temperature of the film.
+    pub(super) fn lubricant(&mut self, temperature: f64) -> Option<Lubricant> {
+        let density = match self.value("oil.density")? {
+            Value::Number(density) => density,
+            _ => self.number("oil.density.value")?,
+        };
+        let viscosity = match self.value("oil.viscosity")? {
+            Value::Number(viscosity) => ViscosityLaw::Constant { viscosity },
+            _ => self.viscosity_law()?,
+        };
+        let lubricant = Lubricant {
+            viscosity,
+            density: DensityLaw::Constant { density },
+        };
+        if let Err(error) = lubricant.check() {
+            let error = self.error_at("oil.viscosity", format!("the oil is none: {error}"));
+            self.errors.push(error);
+            return None;
+        }
+        let viscosity = lubricant.viscosity(temperature, 0.0).value;
+        let is_below_pole =
+            matches!(lubricant.viscosity, ViscosityLaw::Vogel { c, .. } if temperature + c <= 0.0);
+        if is_below_pole || !(1e-6..=1e3).contains(&viscosity) {
+            let message = format!(
+                "the viscosity law gives {viscosity:.3e} Pa.s at the film temperature of {:.1} degC",
+                temperature - 273.15
+            );
+            let error = self
+                .error_at("oil.viscosity", message)
+                .hinting("for vogel, b and c are in K and T in K: c = (c for degC) - 273.15");
+            self.errors.push(error);
+            return None;
+        }
+        Some(lubricant)
+    }
+
+    fn viscosity_law(&mut self) -> Option<ViscosityLaw> {
+        let law = self.text("oil.viscosity.law")?;
+        let (own, foreign): (&[&str], &[&str]) = match law.as_str() {
+            "vogel" => (&["a", "b", "c"], &["kv40", "kv100"]),
+            _ => (&["kv40", "kv100"], &["a", "b", "c"]),
+        };
+        let path = |name: &str| format!("oil.viscosity.{name}");
+        let mut errors = Vec::new();
+        for name in own
+            .iter()
+            .filter(|name| !self.reading.was_given(&path(name)))
+        {
+            let message = format!("the law {law} needs `{name}`");
+            errors.push(
+                self.error_at("oil.viscosity.law", message)
+                    .allowing(own.join(", ")),
+            );
+        }
+        for name in foreign
+            .iter()
+            .filter(|name| self.reading.was_given(&path(name)))
+        {
+            let message = format!("the law {law} has no `{name}`");
+            errors.push(self.error_at(&path(name), message).allowing(own.join(", ")));
+        }
+        if !errors.is_empty() {
+            self.errors.extend(errors);
+            return None;
+        }
+        let number = |name: &str| self.number(&path(name));
+        Some(match law.as_str() {
+            "vogel" => ViscosityLaw::Vogel {
+                a: number("a")?,
+                b: number("b")?,
+                c: number("c")?,
+            },
+            _ => ViscosityLaw::AstmD341 {
+                kv40: number("kv40")?,
+                kv100: number("kv100")?,
+            },
+        })
+    }
+}
+
+/// One `[[bearing.groove]]` being checked.
+struct GrooveCheck<'c, 't> {
+    checker: &'c Checker<'t>,
+    header: &'c Range<usize>,
+    entries: &'c Entries,
+    bearing: &'c Bearing,
+}
+
+/// What is wrong with a groove; empty where it was reported when it was read.
+type Refused = Vec<InputError>;
+
+impl GrooveCheck<'_, '_> {
+    fn number(&self, path: &str) -> Result<f64, Refused> {
+        value_in(self.entries, path)
+            .and_then(as_number)
+            .ok_or_else(Vec::new)
+    }
+
+    fn text(&self, path: &str) -> Result<String, Refused> {
+        value_in(self.entries, path)
+            .and_then(as_text)
+            .ok_or_else(Vec::new)
+    }
+
+    /// An error at a value of this groove, or at its header.
+    fn error(&self, path: &str, message: impl Into<String>) -> InputError {
+        let span = self
+            .entries
+            .get(path)
+            .map_or(self.header, |entry| &entry.value_span);
+        self.checker.reading.error(span, message).of_key(path)
+    }
+
+    fn feed(&self) -> Result<Feed, Refused> {
+        let kind = self.text("bearing.groove.kind")?;
+        self.check_keys(&kind)?;
+        let shape = self.shape(&kind)?;
+        let feed = Feed {
+            shape,
+            carried_by: match self.text("bearing.groove.carried_by")?.as_str() {
+                "journal" => Carrier::Journal,
+                _ => Carrier::Shell,
+            },
+            angle: match shape {
+                FeedShape::Circumferential { .. } => 0.0,
+                _ => self.number("bearing.groove.angle")?,
+            },
+            position: self.number("bearing.groove.position")?,
+            pressure: self.number("bearing.groove.pressure")?,
+        };
+        let errors = self.misfits(&feed);
+        if errors.is_empty() {
+            Ok(feed)
+        } else {
+            Err(errors)
+        }
+    }
+
+    /// Each kind has its own keys: those it lacks and those it has no use for.
+    fn check_keys(&self, kind: &str) -> Result<(), Refused> {
+        let own: &[&str] = match kind {
+            "hole" => &["angle", "diameter"],
+            "circumferential" => &["width"],
+            _ => &["angle", "length", "width"],
+        };
+        let mut errors = Vec::new();
+        for name in ["angle", "diameter", "length", "width"] {
+            let path = format!("bearing.groove.{name}");
+            let is_given = self.entries.contains_key(path.as_str());
+            if own.contains(&name) && !is_given {
+                let error = self.error(
+                    "bearing.groove.kind",
+                    format!("a groove of kind {kind} needs `{name}`"),
+                );
+                errors.push(error.of_key(&path).allowing(own.join(", ")));
+            }
+            if is_given && !own.contains(&name) {
+                let message = format!("a groove of kind {kind} has no `{name}`");
+                errors.push(self.error(&path, message).allowing(own.join(", ")));
+            }
+        }
+        if errors.is_empty() {
+            Ok(())
+        } else {
+            Err(errors)
+        }
+    }
+
+    fn shape(&self, kind: &str) -> Result<FeedShape, Refused> {
+        Ok(match kind {
+            "hole" => FeedShape::Hole {
+                diameter: self.number("bearing.groove.diameter")?,
+            },
+            "circumferential" => FeedShape::Circumferential {
+                width: self.number("bearing.groove.width")?,
+            },
+            _ => FeedShape::Rectangle {
+                length: self.number("bearing.groove.length")?,
+                width: self.number("bearing.groove.width")?,
+            },
+        })
+    }
+
+    /// Where the groove does not fit the bearing.
+    fn misfits(&self, feed: &Feed) -> Vec<InputError> {
+        let mut errors = Vec::new();
+        let bearing = self.bearing;
+        let limit = format!("less than the bearing width, {} mm", mm(bearing.width));
+        let extent = match feed.shape {
+            FeedShape::Hole { diameter } => {
+                if diameter >= bearing.width.min(bearing.diameter) {
+                    let error = self.error(
+                        "bearing.groove.diameter",
+                        "the hole is wider than the bearing",
+                    );
+                    errors.push(error.allowing(limit));
+                }
+                diameter
+            }
+            FeedShape::Rectangle { length, width } => {
+                if length >= PI * bearing.diameter {
+                    let error = self.error(
+                        "bearing.groove.length",
+                        "the groove is longer than the circumference",
+                    );
+                    errors.push(error.hinting("kind = \"circumferential\" runs all around"));
+                }
+                if width > bearing.width {
+                    let error = self.error(
+                        "bearing.groove.width",
+                        "the groove is wider than the bearing",
+                    );
+                    errors.push(error.allowing(format!("at most {} mm", mm(bearing.width))));
+                }
+                width
+            }
+            FeedShape::Circumferential { width } => {
+                if width >= bearing.width {
+                    let error = self.error(
+                        "bearing.groove.width",
+                        "the groove leaves no bearing surface",
+                    );
+                    errors.push(error.allowing(limit));
+                }
+                width
+            }
+        };
+        let edge = 0.5 * (bearing.width + extent);
+        if errors.is_empty() && feed.position.abs() >= edge {
+            let error = self.error(
+                "bearing.groove.position",
+                "the groove lies wholly outside the bearing",
+            );
+            errors.push(error.allowing(format!("less than {} mm from the mid-plane", mm(edge))));
+        }
+        if feed.pressure < bearing.cavitation_pressure {
+            errors.push(self.error(
+                "bearing.groove.pressure",
+                "the feed pressure is below the cavitation pressure",
+            ));
+        }
+        errors
+    }
+}
+
+/// Metres as millimetres for messages, without round-off tails.
+fn mm(metres: f64) -> f64 {
+    (metres * 1e9).round() / 1e6
+}

@@ -1,0 +1,294 @@
+//! What the bearing has to do: journal state, steady load, load cycle, or the dimensionless case.
+
+use super::Checker;
+use crate::input::files::{TABLE_CAP, read_text};
+use crate::input::load_file::{CycleSettings, read_load_table};
+use crate::input::schema::Mode;
+use crate::input::study::{BearingCase, CycleDuty, Duty, SteadyLoad, Subject, TiltCondition};
+use crate::input::values::Value;
+use sommerfeld_film::dimensionless::DimensionlessFilm;
+use sommerfeld_film::{Bearing, JournalState};
+use std::path::Path;
+
+/// Largest number of steps in a period that is taken for an answer to a question.
+const MOST_STEPS: f64 = 200_000.0;
+
+impl Checker<'_> {
+    /// What is calculated; `None` where an error says why not.
+    pub(super) fn subject(&mut self, directory: &Path) -> Option<Subject> {
+        if self.mode == Mode::Dimensionless {
+            return self.dimensionless().map(Subject::Dimensionless);
+        }
+        let bearing = self.bearing();
+        let temperature = self.number("oil.temperature");
+        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature));
+        let duty = match self.mode {
+            Mode::Film => self.journal_state(bearing.as_ref()).map(Duty::State),
+            Mode::LoadCycle => self.load_cycle(directory).map(Duty::Cycle),
+            _ => self.steady_load(bearing.as_ref()).map(Duty::Load),
+        };
+        Some(Subject::Bearing(BearingCase {
+            bearing: bearing?,
+            lubricant: lubricant?,
+            temperature: temperature?,
+            duty: duty?,
+        }))
+    }
+
+    /// The dimensionless case, its gap open everywhere.
+    fn dimensionless(&mut self) -> Option<DimensionlessFilm> {
+        let model = self.film_model()?;
+        if !model.is_field() {
+            let error = self
+                .error_at("film.model", "a dimensionless film is solved on the grid")
+                .allowing("\"field\"");
+            self.errors.push(error);
+        }
+        let rules = self.film_rules()?;
+        let number = |name: &str| self.number(&format!("operation.{name}"));
+        let case = DimensionlessFilm {
+            d_over_b: number("d_over_b")?,
+            relative_eccentricity: number("relative_eccentricity")?,
+            tilt_gamma: number("tilt_gamma")?,
+            tilt_delta: number("tilt_delta")?,
+            wedge: number("wedge")?,
+            squeeze: number("squeeze")?,
+            cavitation: rules.cavitation,
+            inlet: rules.inlet,
+        };
+        let narrowest = case.narrowest_gap();
+        let (gap, z) = (narrowest.relative_film_thickness, narrowest.z);
+        // A gap of round-off size is closed for every solver.
+        if gap <= 1e-12 {
+            let message = format!(
+                "the gap closes at phi = {:.2} deg, Z = {z} (H = {:.4})",
+                narrowest.phi_deg,
+                gap + 0.0
+            );
+            let path = ["operation.tilt_gamma", "operation.tilt_delta"]
+                .into_iter()
+                .find(|path| z != 0.0 && self.entry(path).is_some())
+                .unwrap_or("operation.relative_eccentricity");
+            let error = self
+                .error_at(path, message)
+                .allowing("H = 1 + eps cos(phi) - gamma (1-eps) Z cos(phi) - delta Z sin(phi) above 0 everywhere")
+                .hinting("reduce eccentricity or tilt");
+            self.errors.push(error);
+            return None;
+        }
+        Some(case)
+    }
+
+    /// The state of a `film` study in the shell frame.
+    fn journal_state(&mut self, bearing: Option<&Bearing>) -> Option<JournalState> {
+        let number = |name: &str| self.number(&format!("operation.{name}"));
+        let eps = number("relative_eccentricity")?;
+        let angle = number("line_of_centres_angle")?;
+        let eps_rate = number("relative_eccentricity_rate")?;
+        let turning = number("line_of_centres_rate")?;
+        let (journal_speed, shell_speed) = (number("speed")?, number("shell_speed")?);
+        let bearing = bearing?;
+        let clearance = bearing.radial_clearance;
+        // r points to the narrowest gap, t = z x r across.
+        let (sin, cos) = angle.sin_cos();
+        let (along, across) = (clearance * eps_rate, clearance * eps * turning);
+        let state = JournalState {
+            position: [clearance * eps * cos, clearance * eps * sin],
+            tilt: self.pair("operation.tilt").unwrap_or_default(),
+            velocity: [along * cos - across * sin, along * sin + across * cos],
+            tilt_rate: self.pair("operation.tilt_rate").unwrap_or_default(),
+            journal_speed,
+            shell_speed,
+            ..JournalState::default()
+        };
+        self.refuse_tilt_of_closed_form();
+        self.check_gap(bearing, &state);
+        Some(state)
+    }
+
+    /// Refuses a state that closes the gap, with the place where it does.
+    fn check_gap(&mut self, bearing: &Bearing, state: &JournalState) {
+        let gap = bearing.minimum_gap(state);
+        if gap > 1e-12 * bearing.radial_clearance {
+            return;
+        }
+        let is_tilted = state.tilt != [0.0; 2];
+        let edge = |side: f64| {
+            let [x, y] = state.centre_at(0.5 * side * bearing.width);
+            (bearing.radial_clearance - x.hypot(y), y.atan2(x), side)
+        };
+        let (front, back) = (edge(-1.0), edge(1.0));
+        let (gap, angle, side) = if front.0 < back.0 { front } else { back };
+        let place = if is_tilted {
+            format!("axial position {} mm", round(0.5e3 * side * bearing.width))
+        } else {
+            "over the whole width".to_owned()
+        };
+        let message = format!(
+            "the gap closes at {} deg from +X, {place} (gap {} um)",
+            round(angle.to_degrees().rem_euclid(360.0)),
+            round(gap * 1e6)
+        );
+        let path = if is_tilted && state.eccentricity() < bearing.radial_clearance {
+            "operation.tilt"
+        } else {
+            "operation.relative_eccentricity"
+        };
+        let error = self
+            .error_at(path, message)
+            .allowing("a gap above 0 at both edges; relative_eccentricity below 1")
+            .hinting("reduce eccentricity or tilt");
+        self.errors.push(error);
+    }
+
+    /// Tilt and moments need the field.
+    fn refuse_tilt_of_closed_form(&mut self) {
+        let Some(model) = self.film_model().filter(|model| !model.is_field()) else {
+            return;
+        };
+        for path in ["operation.tilt", "operation.tilt_rate", "operation.moment"] {
+            let given = self.entry(path).map(|entry| entry.value.clone());
+            let is_zero = given == Some(Value::Pair([0.0; 2]));
+            if given.is_some() && (!is_zero || path == "operation.moment") {
+                let message = format!("the model {} has no tilt", model.name());
+                let error = self
+                    .error_at(path, message)
+                    .hinting("use model = \"field\"");
+                self.errors.push(error);
+            }
+        }
+    }
+
+    /// Load and speeds of an equilibrium.
+    fn steady_load(&mut self, bearing: Option<&Bearing>) -> Option<SteadyLoad> {
+        let load = self.pair("operation.load");
+        let journal_speed = self.number("operation.speed");
+        let shell_speed = self.number("operation.shell_speed");
+        self.refuse_tilt_of_closed_form();
+        let tilt = self.tilt_condition(bearing);
+        let steady = SteadyLoad {
+            load: load?,
+            journal_speed: journal_speed?,
+            shell_speed: shell_speed?,
+            tilt,
+        };
+        if steady.journal_speed + steady.shell_speed == 0.0 {
+            let error = self
+                .error_at("operation.speed", "the surfaces drag no oil into the film: speed + shell_speed is 0")
+                .hinting("a steady load needs rotation; for a load that varies use analysis = \"load-cycle\"");
+            self.errors.push(error);
+            return None;
+        }
+        Some(steady)
+    }
+
+    fn tilt_condition(&mut self, bearing: Option<&Bearing>) -> TiltCondition {
+        let tilt = self.pair("operation.tilt");
+        if let Some(moment) = self.pair("operation.moment") {
+            if tilt.is_some() {
+                let error = self
+                    .error_at("operation.tilt", "the tilt is free where a moment is given")
+                    .hinting("give tilt or moment, not both");
+                self.errors.push(error);
+            }
+            return TiltCondition::Free { moment };
+        }
+        let tilt = tilt.unwrap_or_default();
+        if let Some(bearing) = bearing {
+            let state = JournalState {
+                tilt,
+                ..JournalState::default()
+            };
+            self.check_gap(bearing, &state);
+        }
+        TiltCondition::Fixed(tilt)
+    }
+
+    fn load_cycle(&mut self, directory: &Path) -> Option<CycleDuty> {
+        let number = |name: &str| self.number(&format!("load_cycle.{name}"));
+        let settings = CycleSettings {
+            engine_speed: number("engine_speed")?,
+            period: number("period")?,
+            journal_mass: number("journal_mass")?,
+        };
+        let closure_tolerance = number("closure_tolerance")?;
+        let crank_step = self.crank_step(settings.period);
+        let Value::Integer(maximum_cycles) = self.value("load_cycle.maximum_cycles")? else {
+            return None;
+        };
+        let name = self.text("load_cycle.file")?;
+        let table = self.load_table(&directory.join(&name), &settings)?;
+        let has_moments = table.has_moments;
+        self.warnings.extend(table.warnings);
+        if has_moments && self.film_model().is_some_and(|model| !model.is_field()) {
+            let error = self
+                .error_at(
+                    "load_cycle.file",
+                    "the load table gives moments, the film model has no tilt",
+                )
+                .hinting("use model = \"field\" or take the moment columns out");
+            self.errors.push(error);
+        }
+        Some(CycleDuty {
+            cycle: table.cycle,
+            tilt_is_free: has_moments,
+            crank_step: crank_step?,
+            maximum_cycles: usize::try_from(maximum_cycles).ok()?,
+            closure_tolerance,
+        })
+    }
+
+    fn load_table(
+        &mut self,
+        path: &Path,
+        settings: &CycleSettings,
+    ) -> Option<crate::input::load_file::LoadTable> {
+        let text = match read_text(path, TABLE_CAP) {
+            Ok(text) => text,
+            Err(error) => {
+                let message = format!("the load table cannot be used: {}", error.message);
+                let mut refused = self.error_at("load_cycle.file", message);
+                refused.hint = Some(format!("it was looked for at {}", path.display()));
+                self.errors.push(refused);
+                return None;
+            }
+        };
+        let table = read_load_table(&path.to_string_lossy(), &text, settings);
+        self.table_bytes = text.into_bytes();
+        match table {
+            Ok(table) => Some(table),
+            Err(errors) => {
+                self.errors.extend(errors);
+                None
+            }
+        }
+    }
+
+    /// The output step, which must divide the period so that cycles end on it.
+    fn crank_step(&mut self, period: f64) -> Option<f64> {
+        const PATH: &str = "load_cycle.crank_step";
+        let step = self.number(PATH)?;
+        let steps = (period / step).round();
+        if steps >= 1.0 && (steps * step - period).abs() <= 1e-9 * period && steps <= MOST_STEPS {
+            return Some(period / steps);
+        }
+        let path = if self.entry(PATH).is_some() {
+            PATH
+        } else {
+            "load_cycle.period"
+        };
+        let nearest = round((period / steps.clamp(1.0, MOST_STEPS)).to_degrees());
+        let error = self
+            .error_at(path, "the crank step does not divide the period")
+            .hinting(format!(
+                "the nearest that does is crank_step = \"{nearest} deg\""
+            ));
+        self.errors.push(error);
+        None
+    }
+}
+
+/// A number as it is shown in messages, without round-off tails.
+fn round(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4 + 0.0
+}

@@ -1,0 +1,349 @@
+//! From values to a study: what is missing, what is not used, and what no single key can tell.
+
+mod bearing;
+mod duty;
+
+use super::error::{InputError, InputErrors};
+use super::keys::KEYS;
+use super::read::{Entries, Entry, MOST_ERRORS, Reading};
+use super::schema::{Key, Kind, Mode, Presence, find, nearest};
+use super::study::{
+    Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
+};
+use super::values::{Value, default_value};
+use std::ops::Range;
+use std::path::Path;
+
+/// Reads and checks the text of a study.
+pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, InputErrors> {
+    let mut reading = Reading::of(file, text);
+    if let Some(error) = newer_schema(&reading) {
+        return Err(error.into());
+    }
+    if reading.errors.len() >= MOST_ERRORS {
+        // The rest was not read: nothing is known to be missing.
+        return Err(sorted(reading.errors));
+    }
+    let Some(mode) = mode(&reading) else {
+        report_missing_analysis(&mut reading);
+        return Err(sorted(reading.errors));
+    };
+    let errors = std::mem::take(&mut reading.errors);
+    let mut checker = Checker {
+        reading,
+        mode,
+        errors,
+        warnings: Vec::new(),
+        table_bytes: Vec::new(),
+    };
+    checker.report_missing();
+    checker.report_unused();
+    let subject = checker.subject(directory);
+    let film = checker.film_settings();
+    let limits = checker.limits();
+    if !checker.errors.is_empty() {
+        return Err(sorted(checker.errors));
+    }
+    let (Some(subject), Some(film)) = (subject, film) else {
+        // Every value is there or an error says why not.
+        return Err(InputError::new(file, "the study is incomplete").into());
+    };
+    Ok(Study {
+        title: checker.text("title").unwrap_or_default(),
+        analysis: analysis(mode),
+        subject,
+        film,
+        limits,
+        warnings: sorted(checker.warnings).0,
+        file: file.to_owned(),
+        text: text.to_owned(),
+        input_hash: input_hash(&[text.as_bytes(), &checker.table_bytes]),
+    })
+}
+
+/// Errors in the order of the lines they are about; those about whole files first.
+fn sorted(mut errors: Vec<InputError>) -> InputErrors {
+    errors.sort_by_key(|error| {
+        error
+            .place
+            .as_ref()
+            .map_or((0, 0), |place| (place.line, place.columns.start))
+    });
+    InputErrors(errors)
+}
+
+/// A file of a later schema: its keys would only be called unknown.
+fn newer_schema(reading: &Reading<'_>) -> Option<InputError> {
+    let error = reading.errors.iter().find(|error| error.key == "schema")?;
+    let version: i64 = error.value.parse().ok()?;
+    (version > 1).then(|| InputError {
+        message: format!("the study is written for a newer schema, {version}"),
+        allowed: Some("schema 1".into()),
+        hint: Some(format!(
+            "use a newer version of the program; this is {}",
+            env!("CARGO_PKG_VERSION")
+        )),
+        ..error.clone()
+    })
+}
+
+/// What the study does, as far as `analysis` and `operation.dimensionless` tell.
+fn mode(reading: &Reading<'_>) -> Option<Mode> {
+    let Value::Text(analysis) = &reading.entries.get("analysis")?.value else {
+        return None;
+    };
+    let dimensionless = reading.entries.get("operation.dimensionless");
+    let is_dimensionless = dimensionless.is_some_and(|entry| entry.value == Value::Flag(true));
+    match analysis.as_str() {
+        "film" if is_dimensionless => Some(Mode::Dimensionless),
+        "film" => Some(Mode::Film),
+        "equilibrium" => Some(Mode::Equilibrium),
+        "coefficients" => Some(Mode::Coefficients),
+        "load-cycle" => Some(Mode::LoadCycle),
+        _ => None,
+    }
+}
+
+fn analysis(mode: Mode) -> Analysis {
+    match mode {
+        Mode::Film | Mode::Dimensionless => Analysis::Film,
+        Mode::Equilibrium => Analysis::Equilibrium,
+        Mode::Coefficients => Analysis::Coefficients,
+        Mode::LoadCycle => Analysis::LoadCycle,
+    }
+}
+
+fn report_missing_analysis(reading: &mut Reading<'_>) {
+    // Behind a syntax error nothing is known to be missing.
+    if !reading.errors.is_empty() && reading.entries.is_empty() {
+        return;
+    }
+    for path in ["schema", "analysis"] {
+        if let Some(key) = find(path).filter(|_| !reading.was_given(path)) {
+            reading.errors.push(missing(reading, key, None));
+        }
+    }
+}
+
+/// The error for a key that is not there, at the header of its section.
+fn missing(reading: &Reading<'_>, key: &Key, header: Option<&Range<usize>>) -> InputError {
+    let (what, example) = match key.kind {
+        Kind::Table | Kind::TableList => ("section", format!("add [{}]", key.path)),
+        _ if key.typical.starts_with(['"', '[', '{']) || key.typical.parse::<f64>().is_ok() => (
+            "key",
+            format!("for example {} = {}", key.name(), example_of(key)),
+        ),
+        _ => ("key", format!("{} Typical: {}", key.meaning, key.typical)),
+    };
+    let message = format!("the {what} `{}` is missing", key.path);
+    match header {
+        Some(span) => reading.error(span, message),
+        None => InputError::new(reading.file, message),
+    }
+    .of_key(key.path)
+    .with_value("")
+    .hinting(example)
+}
+
+/// The first of the typical values.
+fn example_of(key: &Key) -> &'static str {
+    match key
+        .typical
+        .strip_prefix('"')
+        .and_then(|rest| rest.find('"'))
+    {
+        Some(end) => &key.typical[..end + 2],
+        None => key.typical,
+    }
+}
+
+/// A study being checked.
+struct Checker<'t> {
+    reading: Reading<'t>,
+    mode: Mode,
+    errors: Vec<InputError>,
+    warnings: Vec<InputError>,
+    /// Bytes of the load table, for the hash.
+    table_bytes: Vec<u8>,
+}
+
+impl Checker<'_> {
+    /// The value of a key, or its default.
+    fn value(&self, path: &str) -> Option<Value> {
+        value_in(&self.reading.entries, path)
+    }
+
+    /// The entry of a key, if the file gives it.
+    fn entry(&self, path: &str) -> Option<&Entry> {
+        self.reading.entries.get(path)
+    }
+
+    /// A number or quantity in SI.
+    fn number(&self, path: &str) -> Option<f64> {
+        as_number(self.value(path)?)
+    }
+
+    /// Text or a word of a choice.
+    fn text(&self, path: &str) -> Option<String> {
+        as_text(self.value(path)?)
+    }
+
+    /// Two quantities in SI.
+    fn pair(&self, path: &str) -> Option<[f64; 2]> {
+        match self.value(path)? {
+            Value::Pair(pair) => Some(pair),
+            _ => None,
+        }
+    }
+
+    /// An error at the value of a key, or about the whole file where the key is left out.
+    fn error_at(&self, path: &str, message: impl Into<String>) -> InputError {
+        match self.entry(path) {
+            Some(entry) => self.reading.error(&entry.value_span, message),
+            None => InputError::new(self.reading.file, message),
+        }
+        .of_key(path)
+    }
+
+    /// An unknown key was taken for this one: one slip, one message.
+    fn was_misspelt(&self, key: &Key) -> bool {
+        self.errors.iter().any(|error| {
+            find(&error.key).is_none()
+                && nearest(&error.key).is_some_and(|meant| meant.path == key.path)
+        })
+    }
+
+    /// Reports keys that this study needs and the file does not give.
+    fn report_missing(&mut self) {
+        for key in KEYS {
+            let section = key.section();
+            let is_due = key.presence == Presence::Required
+                && key.used_by.contains(&self.mode)
+                && section != "bearing.groove"
+                && !self.reading.was_given(key.path)
+                && !self.was_misspelt(key);
+            // A quantity given in place of a law has no keys; a missing section is one error.
+            let header = self.entry(section);
+            let has_section =
+                section.is_empty() || header.is_some_and(|entry| entry.value == Value::Table);
+            if is_due && has_section {
+                let header = header.map(|entry| &entry.key_span);
+                let error = missing(&self.reading, key, header);
+                self.errors.push(error);
+            }
+        }
+        for (header, group) in &self.reading.grooves {
+            if self.errors.len() >= MOST_ERRORS {
+                return;
+            }
+            for key in KEYS.iter().filter(|key| key.section() == "bearing.groove") {
+                if key.presence == Presence::Required
+                    && !group.contains_key(key.path)
+                    && !self.was_misspelt(key)
+                {
+                    self.errors.push(missing(&self.reading, key, Some(header)));
+                }
+            }
+        }
+    }
+
+    /// Keys that this analysis does not read: a warning, so that one file can serve several
+    /// analyses; an error where a dimensional value would mean nothing.
+    fn report_unused(&mut self) {
+        let mut unused: Vec<(&Key, Range<usize>)> = Vec::new();
+        for (path, entry) in &self.reading.entries {
+            let Some(key) = find(path) else { continue };
+            let section_is_used =
+                find(key.section()).is_none_or(|section| section.used_by.contains(&self.mode));
+            if !key.used_by.contains(&self.mode) && section_is_used {
+                unused.push((key, entry.key_span.clone()));
+            }
+        }
+        for (key, span) in unused {
+            let message = format!(
+                "`{}` is not used by the analysis {}",
+                key.path,
+                self.mode.name()
+            );
+            let note = self.reading.error(&span, message).of_key(key.path);
+            if self.mode == Mode::Dimensionless {
+                self.errors.push(note.hinting("take it out"));
+            } else if key.path == "operation.dimensionless" {
+                self.errors
+                    .push(note.hinting("only the analysis \"film\" can be dimensionless"));
+            } else {
+                self.warnings.push(note);
+            }
+        }
+    }
+
+    fn film_model(&self) -> Option<FilmModel> {
+        match self.text("film.model")?.as_str() {
+            "field" => Some(FilmModel::Field),
+            "short-bearing" => Some(FilmModel::ShortBearing),
+            "mobility" => Some(FilmModel::Mobility),
+            "long-bearing" => Some(FilmModel::LongBearing),
+            _ => None,
+        }
+    }
+
+    fn film_settings(&mut self) -> Option<FilmSettings> {
+        let model = self.film_model()?;
+        if !model.is_field() {
+            for path in ["film.grid", "film.linear_solver"] {
+                if let Some(entry) = self.entry(path) {
+                    let message = format!("`{path}` is not used by the model {}", model.name());
+                    let note = self.reading.error(&entry.key_span, message).of_key(path);
+                    self.warnings.push(note);
+                }
+            }
+        }
+        let Value::Grid(grid) = self.value("film.grid")? else {
+            return None;
+        };
+        let linear_solver = match self.text("film.linear_solver")?.as_str() {
+            "banded" => LinearSolver::Banded,
+            _ => LinearSolver::Auto,
+        };
+        Some(FilmSettings {
+            model,
+            grid,
+            linear_solver,
+        })
+    }
+
+    fn limits(&self) -> Vec<StudyLimit> {
+        KEYS.iter()
+            .filter_map(|key| match &self.entry(key.path)?.value {
+                Value::Limit(value, source) => Some(StudyLimit {
+                    key: key.name(),
+                    value: *value,
+                    source: source.clone(),
+                }),
+                _ => None,
+            })
+            .collect()
+    }
+}
+
+/// The value of a key among some entries, or its default.
+fn value_in(entries: &Entries, path: &str) -> Option<Value> {
+    match entries.get(path) {
+        Some(entry) => Some(entry.value.clone()),
+        None => default_value(find(path)?),
+    }
+}
+
+fn as_number(value: Value) -> Option<f64> {
+    match value {
+        Value::Number(number) => Some(number),
+        _ => None,
+    }
+}
+
+fn as_text(value: Value) -> Option<String> {
+    match value {
+        Value::Text(text) => Some(text),
+        _ => None,
+    }
+}

@@ -1,0 +1,27 @@
+//! From a study file to a checked [`Study`]: read, check, convert to SI, with every error named.
+//!
+//! `keys` is the one table of what a study file may hold; [`units`] the one place where text becomes
+//! SI; `read` walks the TOML; `check` looks at what no single key can tell; [`load_study`] joins them.
+
+mod check;
+mod error;
+mod explain;
+mod files;
+mod json_schema;
+mod keys;
+pub mod load_file;
+mod read;
+pub mod schema;
+mod study;
+pub mod units;
+mod values;
+
+pub use error::{InputError, InputErrors, MessageKind, Place, render_all};
+pub use explain::{explain, list_keys};
+pub use files::{load_study, study_from_text};
+pub use json_schema::json_schema;
+pub use keys::KEYS;
+pub use study::{
+    Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, SteadyLoad,
+    Study, StudyLimit, Subject, TiltCondition,
+};

@@ -1,0 +1,257 @@
+//! A checked study: everything a run needs, in SI, with nothing left to doubt.
+
+use super::error::InputError;
+use sommerfeld_bearing::LoadCycle;
+use sommerfeld_film::dimensionless::DimensionlessFilm;
+use sommerfeld_film::{Bearing, JournalState};
+use sommerfeld_oil::Lubricant;
+
+/// A study file that was read and checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    /// Title; empty where the file gives none.
+    pub title: String,
+    /// What is calculated.
+    pub analysis: Analysis,
+    /// What it is calculated of.
+    pub subject: Subject,
+    /// How the film is modelled.
+    pub film: FilmSettings,
+    /// Design limits, in the order of the table of keys.
+    pub limits: Vec<StudyLimit>,
+    /// What the user should know.
+    pub warnings: Vec<InputError>,
+    /// The study file, as the user named it.
+    pub file: String,
+    /// Its text, without a byte order mark.
+    pub text: String,
+    /// Identifies study text and load file: equal hashes are the same calculation.
+    pub input_hash: String,
+}
+
+impl Study {
+    /// The bearing, unless the study is dimensionless.
+    #[must_use]
+    pub fn bearing_case(&self) -> Option<&BearingCase> {
+        match &self.subject {
+            Subject::Bearing(case) => Some(case),
+            Subject::Dimensionless(_) => None,
+        }
+    }
+}
+
+/// What a study calculates.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Analysis {
+    /// One film at a given journal state.
+    Film,
+    /// The position that carries a constant load.
+    Equilibrium,
+    /// Stiffness and damping at that position.
+    Coefficients,
+    /// The journal orbit over a load cycle.
+    LoadCycle,
+}
+
+impl Analysis {
+    /// As in the study file.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Film => "film",
+            Self::Equilibrium => "equilibrium",
+            Self::Coefficients => "coefficients",
+            Self::LoadCycle => "load-cycle",
+        }
+    }
+}
+
+/// What is calculated: a bearing in SI, or the dimensionless film problem.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Subject {
+    /// A bearing in SI.
+    Bearing(BearingCase),
+    /// The dimensionless film problem.
+    Dimensionless(DimensionlessFilm),
+}
+
+/// A bearing with its oil and what it has to do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BearingCase {
+    /// The bearing.
+    pub bearing: Bearing,
+    /// The oil.
+    pub lubricant: Lubricant,
+    /// Temperature of the film, K.
+    pub temperature: f64,
+    /// What the bearing has to do.
+    pub duty: Duty,
+}
+
+/// What the bearing has to do; one variant for each analysis, equilibrium and coefficients sharing
+/// theirs.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Duty {
+    /// Analysis `film`: hold this journal state.
+    State(JournalState),
+    /// Analyses `equilibrium` and `coefficients`: carry this load.
+    Load(SteadyLoad),
+    /// Analysis `load-cycle`: carry this load cycle.
+    Cycle(CycleDuty),
+}
+
+/// A constant load and the speeds under it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteadyLoad {
+    /// Load ON the journal, N.
+    pub load: [f64; 2],
+    /// Angular speed of the journal in the frame of the load, rad/s.
+    pub journal_speed: f64,
+    /// Angular speed of the shell in the frame of the load, rad/s.
+    pub shell_speed: f64,
+    /// What holds the tilt.
+    pub tilt: TiltCondition,
+}
+
+/// What holds the tilt of the journal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TiltCondition {
+    /// The tilt is given, rad about X and Y.
+    Fixed([f64; 2]),
+    /// The tilt is free and answers this moment ON the journal, N m about X and Y.
+    Free {
+        /// Moment on the journal, N m.
+        moment: [f64; 2],
+    },
+}
+
+/// A load cycle and how its orbit is computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleDuty {
+    /// The load cycle.
+    pub cycle: LoadCycle,
+    /// The table gives moments: the tilt is free.
+    pub tilt_is_free: bool,
+    /// Crank angle between two rows of the results, rad; divides the period.
+    pub crank_step: f64,
+    /// Cycles after which an orbit that has not closed is given up.
+    pub maximum_cycles: usize,
+    /// The orbit is closed when two cycles differ by less, over the radial clearance.
+    pub closure_tolerance: f64,
+}
+
+/// How the film is modelled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FilmSettings {
+    /// The model.
+    pub model: FilmModel,
+    /// Cells around the circumference and along the axis.
+    pub grid: [usize; 2],
+    /// Solver of the linear systems.
+    pub linear_solver: LinearSolver,
+}
+
+/// A model of the film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilmModel {
+    /// Reynolds equation on a grid.
+    Field,
+    /// Closed form of the short bearing (Ocvirk).
+    ShortBearing,
+    /// Booker's mobility of the short bearing.
+    Mobility,
+    /// Closed form of the infinitely long bearing (Sommerfeld).
+    LongBearing,
+}
+
+impl FilmModel {
+    /// As in the study file.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Field => "field",
+            Self::ShortBearing => "short-bearing",
+            Self::Mobility => "mobility",
+            Self::LongBearing => "long-bearing",
+        }
+    }
+
+    /// It answers to tilt, feeds and pressures other than 0.
+    #[must_use]
+    pub const fn is_field(self) -> bool {
+        matches!(self, Self::Field)
+    }
+}
+
+/// Solver of the linear systems of the field model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LinearSolver {
+    /// The program chooses.
+    Auto,
+    /// Banded elimination.
+    Banded,
+}
+
+/// A design limit as the user wrote it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StudyLimit {
+    /// Its key under `[limits]`, such as `minimum_film_thickness`.
+    pub key: &'static str,
+    /// The limit, SI.
+    pub value: f64,
+    /// Where the limit comes from, in the words of the user.
+    pub source: String,
+}
+
+/// A hash of the inputs that is the same on every machine and in every release (FNV-1a, 128 bit;
+/// constants from the IETF draft by Fowler, Noll, Vo and Eastlake). It tells inputs apart, it is no
+/// seal against forgery.
+pub(super) fn input_hash(parts: &[&[u8]]) -> String {
+    const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+    const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
+    let mut hash = OFFSET;
+    let mut feed = |byte: u8| {
+        hash ^= u128::from(byte);
+        hash = hash.wrapping_mul(PRIME);
+    };
+    for part in parts {
+        // The length keeps two parts from being taken for one.
+        (part.len() as u64)
+            .to_le_bytes()
+            .into_iter()
+            .for_each(&mut feed);
+        part.iter().copied().for_each(&mut feed);
+    }
+    format!("{hash:032x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hash_of_known_text() {
+        // Eight bytes of length 0, then nothing: differs from no part at all.
+        assert_eq!(input_hash(&[]), "6c62272e07bb014262b821756295c58d");
+        assert_ne!(input_hash(&[b"ab", b"c"]), input_hash(&[b"a", b"bc"]));
+    }
+
+    #[test]
+    fn the_gap_of_a_tilted_case_closes_at_an_edge() {
+        let case = DimensionlessCase {
+            d_over_b: 2.0,
+            relative_eccentricity: 0.8,
+            tilt_gamma: 1.0,
+            tilt_delta: 0.0,
+            wedge: 1.0,
+            squeeze: 0.0,
+            cavitation: Cavitation::Reynolds,
+            inlet: Inlet::Cyclic,
+            ends: Ends::Air,
+        };
+        let (gap, [phi, z]) = case.minimum_gap();
+        assert!(gap.abs() < 1e-12, "{gap}");
+        assert!((phi - std::f64::consts::PI).abs() < 1e-12, "{phi}");
+        assert!((z + 1.0).abs() < 1e-12, "{z}");
+    }
+}

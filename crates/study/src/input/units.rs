@@ -1,0 +1,360 @@
+//! Quantities with units, `"48 mm"` to 0.048 m: the one place where text becomes SI.
+//!
+//! A quantity is a number, then a unit of the dimension that its key asks for. `m.s`, `m s`, `m*s`
+//! and `m·s` are the same unit, so are `m2` and `m^2`. A bare number is refused: whether 72 means
+//! millimetres or micrometres is not for a program to guess.
+
+use std::f64::consts::PI;
+use std::fmt;
+
+/// What a quantity measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dimension {
+    /// m
+    Length,
+    /// rad
+    Angle,
+    /// rad/s
+    AngularSpeed,
+    /// 1/s
+    Rate,
+    /// Pa, gauge
+    Pressure,
+    /// K
+    Temperature,
+    /// K, of a difference or offset: no zero point
+    TemperatureDifference,
+    /// N
+    Force,
+    /// N m
+    Moment,
+    /// kg
+    Mass,
+    /// Pa s
+    DynamicViscosity,
+    /// m2/s
+    KinematicViscosity,
+    /// kg/m3
+    Density,
+    /// W
+    Power,
+    /// m3/s
+    VolumeFlow,
+}
+
+/// One unit: name, factor to SI and the SI value of its zero.
+type Unit = (&'static str, f64, f64);
+
+const DEGREE: f64 = PI / 180.0;
+const REVOLUTION_PER_MINUTE: f64 = PI / 30.0;
+/// 0 degC in K.
+const CELSIUS_ZERO: f64 = 273.15;
+
+const LENGTH: &[Unit] = &[
+    ("mm", 1e-3, 0.0),
+    ("um", 1e-6, 0.0),
+    ("m", 1.0, 0.0),
+    ("cm", 1e-2, 0.0),
+    ("nm", 1e-9, 0.0),
+];
+const ANGLE: &[Unit] = &[
+    ("deg", DEGREE, 0.0),
+    ("rad", 1.0, 0.0),
+    ("mrad", 1e-3, 0.0),
+    ("urad", 1e-6, 0.0),
+];
+const ANGULAR_SPEED: &[Unit] = &[
+    ("rpm", REVOLUTION_PER_MINUTE, 0.0),
+    ("rad/s", 1.0, 0.0),
+    ("deg/s", DEGREE, 0.0),
+    ("1/min", REVOLUTION_PER_MINUTE, 0.0),
+];
+const RATE: &[Unit] = &[("1/s", 1.0, 0.0)];
+const PRESSURE: &[Unit] = &[
+    ("bar", 1e5, 0.0),
+    ("MPa", 1e6, 0.0),
+    ("Pa", 1.0, 0.0),
+    ("kPa", 1e3, 0.0),
+    ("GPa", 1e9, 0.0),
+    ("N/mm2", 1e6, 0.0),
+];
+const TEMPERATURE: &[Unit] = &[("degC", 1.0, CELSIUS_ZERO), ("K", 1.0, 0.0)];
+const TEMPERATURE_DIFFERENCE: &[Unit] = &[("K", 1.0, 0.0)];
+const FORCE: &[Unit] = &[("N", 1.0, 0.0), ("kN", 1e3, 0.0), ("MN", 1e6, 0.0)];
+const MOMENT: &[Unit] = &[("N.m", 1.0, 0.0), ("kN.m", 1e3, 0.0), ("N.mm", 1e-3, 0.0)];
+const MASS: &[Unit] = &[("kg", 1.0, 0.0), ("g", 1e-3, 0.0), ("t", 1e3, 0.0)];
+const DYNAMIC_VISCOSITY: &[Unit] = &[("mPa.s", 1e-3, 0.0), ("Pa.s", 1.0, 0.0), ("cP", 1e-3, 0.0)];
+const KINEMATIC_VISCOSITY: &[Unit] =
+    &[("mm2/s", 1e-6, 0.0), ("m2/s", 1.0, 0.0), ("cSt", 1e-6, 0.0)];
+const DENSITY: &[Unit] = &[("kg/m3", 1.0, 0.0), ("g/cm3", 1e3, 0.0), ("kg/l", 1e3, 0.0)];
+const POWER: &[Unit] = &[("W", 1.0, 0.0), ("kW", 1e3, 0.0)];
+const VOLUME_FLOW: &[Unit] = &[
+    ("m3/s", 1.0, 0.0),
+    ("cm3/s", 1e-6, 0.0),
+    ("l/min", 1e-3 / 60.0, 0.0),
+];
+
+/// All dimensions, to look up what a foreign unit measures.
+const DIMENSIONS: &[Dimension] = &[
+    Dimension::Length,
+    Dimension::Angle,
+    Dimension::AngularSpeed,
+    Dimension::Rate,
+    Dimension::Pressure,
+    Dimension::Temperature,
+    Dimension::Force,
+    Dimension::Moment,
+    Dimension::Mass,
+    Dimension::DynamicViscosity,
+    Dimension::KinematicViscosity,
+    Dimension::Density,
+    Dimension::Power,
+    Dimension::VolumeFlow,
+];
+
+impl Dimension {
+    /// In words, for messages.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Length => "length",
+            Self::Angle => "angle",
+            Self::AngularSpeed => "angular speed",
+            Self::Rate => "rate",
+            Self::Pressure => "pressure",
+            Self::Temperature => "temperature",
+            Self::TemperatureDifference => "temperature difference",
+            Self::Force => "force",
+            Self::Moment => "moment",
+            Self::Mass => "mass",
+            Self::DynamicViscosity => "dynamic viscosity",
+            Self::KinematicViscosity => "kinematic viscosity",
+            Self::Density => "density",
+            Self::Power => "power",
+            Self::VolumeFlow => "volume flow",
+        }
+    }
+
+    const fn table(self) -> &'static [Unit] {
+        match self {
+            Self::Length => LENGTH,
+            Self::Angle => ANGLE,
+            Self::AngularSpeed => ANGULAR_SPEED,
+            Self::Rate => RATE,
+            Self::Pressure => PRESSURE,
+            Self::Temperature => TEMPERATURE,
+            Self::TemperatureDifference => TEMPERATURE_DIFFERENCE,
+            Self::Force => FORCE,
+            Self::Moment => MOMENT,
+            Self::Mass => MASS,
+            Self::DynamicViscosity => DYNAMIC_VISCOSITY,
+            Self::KinematicViscosity => KINEMATIC_VISCOSITY,
+            Self::Density => DENSITY,
+            Self::Power => POWER,
+            Self::VolumeFlow => VOLUME_FLOW,
+        }
+    }
+
+    /// Names of its units, the usual one first.
+    #[must_use]
+    pub fn units(self) -> Vec<&'static str> {
+        self.table().iter().map(|unit| unit.0).collect()
+    }
+
+    /// SI value of a number in one of its units; `None` where the unit is not one of them.
+    #[must_use]
+    pub fn to_si(self, number: f64, unit: &str) -> Option<f64> {
+        let unit = normalised(unit);
+        self.table()
+            .iter()
+            .find(|known| known.0 == unit)
+            .map(|&(_, factor, zero)| number * factor + zero)
+    }
+}
+
+/// A quantity that cannot be read.
+#[derive(Debug, Clone, PartialEq)]
+pub enum QuantityError {
+    /// No number at the start.
+    NoNumber,
+    /// A comma where the decimal point is due; holds the text with a point.
+    DecimalComma(String),
+    /// Infinite, or not a number.
+    NotFinite,
+    /// A bare number.
+    MissingUnit,
+    /// A unit of another dimension.
+    WrongDimension(String, Dimension),
+    /// No unit that is known here.
+    UnknownUnit(String),
+}
+
+impl fmt::Display for QuantityError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoNumber => write!(f, "does not start with a number"),
+            Self::DecimalComma(_) => write!(f, "is written with a decimal comma"),
+            Self::NotFinite => write!(f, "is not a finite number"),
+            Self::MissingUnit => write!(f, "has no unit"),
+            Self::WrongDimension(unit, dimension) => {
+                write!(f, "has the unit `{unit}` of a {}", dimension.name())
+            }
+            Self::UnknownUnit(unit) => write!(f, "has the unknown unit `{unit}`"),
+        }
+    }
+}
+
+/// Reads a quantity into SI.
+///
+/// # Errors
+/// [`QuantityError`] says what is wrong with the text.
+pub fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
+    let text = text.trim();
+    let (number, unit) = text.split_at(number_length(text));
+    if number.is_empty() {
+        return Err(match text.to_ascii_lowercase().as_str() {
+            "nan" | "inf" | "-inf" | "+inf" => QuantityError::NotFinite,
+            _ => QuantityError::NoNumber,
+        });
+    }
+    if unit.starts_with(',') && unit[1..].starts_with(|c: char| c.is_ascii_digit()) {
+        return Err(QuantityError::DecimalComma(text.replacen(',', ".", 1)));
+    }
+    let number: f64 = number.parse().map_err(|_| QuantityError::NoNumber)?;
+    if !number.is_finite() {
+        return Err(QuantityError::NotFinite);
+    }
+    let unit = unit.trim();
+    if unit.is_empty() {
+        return Err(QuantityError::MissingUnit);
+    }
+    match dimension.to_si(number, unit) {
+        Some(value) if value.is_finite() => Ok(value),
+        Some(_) => Err(QuantityError::NotFinite),
+        None => Err(foreign_unit(unit)),
+    }
+}
+
+/// Tells a unit of another dimension from one that is not known at all.
+fn foreign_unit(unit: &str) -> QuantityError {
+    match DIMENSIONS.iter().find(|d| d.to_si(1.0, unit).is_some()) {
+        Some(&dimension) => QuantityError::WrongDimension(unit.to_owned(), dimension),
+        None => QuantityError::UnknownUnit(unit.to_owned()),
+    }
+}
+
+/// Length in bytes of the decimal number at the start of `text`; 0 without one.
+fn number_length(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while bytes.get(at).is_some_and(u8::is_ascii_digit) {
+            at += 1;
+        }
+        at
+    };
+    let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let mut end = digits(sign);
+    let mut count = end - sign;
+    if bytes.get(end) == Some(&b'.') {
+        let fraction = digits(end + 1);
+        count += fraction - end - 1;
+        end = fraction;
+    }
+    if count == 0 {
+        return 0;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let exponent = digits(end + 1 + sign);
+        if exponent > end + 1 + sign {
+            end = exponent;
+        }
+    }
+    end
+}
+
+/// One spelling for the many of a unit.
+fn normalised(unit: &str) -> String {
+    let mut out = String::with_capacity(unit.len());
+    for c in unit.trim().chars() {
+        match c {
+            '\u{b5}' | '\u{3bc}' => out.push('u'), // both micro signs
+            '\u{b2}' => out.push('2'),
+            '\u{b3}' => out.push('3'),
+            '\u{b0}' => out.push_str("deg"),
+            '^' => {}
+            '*' | '\u{b7}' | '\u{22c5}' | ' ' => {
+                if !out.ends_with(['.', '/']) {
+                    out.push('.');
+                }
+            }
+            '/' => {
+                while out.ends_with('.') {
+                    out.pop();
+                }
+                out.push('/');
+            }
+            c => out.push(c),
+        }
+    }
+    match out.as_str() {
+        "Nm" => "N.m".to_owned(),
+        "kNm" => "kN.m".to_owned(),
+        "Nmm" => "N.mm".to_owned(),
+        "mPas" => "mPa.s".to_owned(),
+        "Pas" => "Pa.s".to_owned(),
+        _ => out,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantities_become_si() {
+        let cases = [
+            ("48 mm", Dimension::Length, 0.048),
+            ("48mm", Dimension::Length, 0.048),
+            ("36 \u{b5}m", Dimension::Length, 36e-6),
+            ("3000 rpm", Dimension::AngularSpeed, 314.159_265_358_979_3),
+            ("-1.5e1 deg", Dimension::Angle, -0.261_799_387_799_149_4),
+            ("5 bar", Dimension::Pressure, 5e5),
+            ("8 mPa.s", Dimension::DynamicViscosity, 8e-3),
+            ("8 mPa s", Dimension::DynamicViscosity, 8e-3),
+            ("100 degC", Dimension::Temperature, 373.15),
+            ("100 \u{b0}C", Dimension::Temperature, 373.15),
+            ("65 cSt", Dimension::KinematicViscosity, 65e-6),
+            ("3 N*m", Dimension::Moment, 3.0),
+            ("850 kg/m^3", Dimension::Density, 850.0),
+            (".5 1/s", Dimension::Rate, 0.5),
+        ];
+        for (text, dimension, value) in cases {
+            let read = parse(text, dimension).unwrap();
+            assert!(
+                (read - value).abs() <= 1e-15 * value.abs(),
+                "{text}: {read}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_named() {
+        let error = |text| parse(text, Dimension::Length).unwrap_err();
+        assert_eq!(error("48"), QuantityError::MissingUnit);
+        assert_eq!(error("mm"), QuantityError::NoNumber);
+        assert_eq!(error(""), QuantityError::NoNumber);
+        assert_eq!(
+            error("0,5 mm"),
+            QuantityError::DecimalComma("0.5 mm".into())
+        );
+        assert_eq!(error("nan"), QuantityError::NotFinite);
+        assert_eq!(error("1e999 mm"), QuantityError::NotFinite);
+        assert_eq!(
+            error("5 bar"),
+            QuantityError::WrongDimension("bar".into(), Dimension::Pressure)
+        );
+        assert_eq!(error("5 inch"), QuantityError::UnknownUnit("inch".into()));
+    }
+}

@@ -1,0 +1,54 @@
+//! Studies to start from: `sommerfeld new TEMPLATE DIR` writes one of these.
+
+/// A study to start from, with the files it names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Template {
+    /// Its name on the command line; the study is written as `<name>.toml`.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub meaning: &'static str,
+    /// The study.
+    pub study: &'static str,
+    /// Names and contents of the files beside it.
+    pub files: &'static [(&'static str, &'static str)],
+}
+
+/// All templates.
+pub const TEMPLATES: &[Template] = &[
+    Template {
+        name: "big-end",
+        meaning: "journal orbit of a connecting-rod big end over a four-stroke cycle",
+        study: include_str!("big-end.toml"),
+        files: &[("loads.csv", include_str!("loads.csv"))],
+    },
+    Template {
+        name: "main-bearing",
+        meaning: "equilibrium of a grooved bearing under a constant load",
+        study: include_str!("main-bearing.toml"),
+        files: &[],
+    },
+    Template {
+        name: "one-axis-cycle",
+        meaning: "journal orbit under a load along one axis, short-bearing film",
+        study: include_str!("one-axis-cycle.toml"),
+        files: &[("one-axis-loads.csv", include_str!("one-axis-loads.csv"))],
+    },
+    Template {
+        name: "film",
+        meaning: "one film at a given journal position",
+        study: include_str!("film.toml"),
+        files: &[],
+    },
+    Template {
+        name: "dimensionless",
+        meaning: "the dimensionless Reynolds equation of a tilted journal",
+        study: include_str!("dimensionless.toml"),
+        files: &[],
+    },
+];
+
+/// The template with this name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static Template> {
+    TEMPLATES.iter().find(|template| template.name == name)
+}
