@@ -46,8 +46,9 @@ impl Gap {
     /// (`side < 0`) or just behind (`side > 0`) the place `x`, so that steps may lie on faces;
     /// `rate(x)` is dH/dt.
     ///
-    /// At a step the two half cells conduct in series, and continuity of flow and pressure at the
-    /// step leaves `(H1^-2 + H2^-2)/(H1^-3 + H2^-3)` for the transport.
+    /// At a step the two half cells, of lengths `d1` and `d2`, conduct in series, and continuity of
+    /// flow and pressure at the step leaves `(d1 H1^-2 + d2 H2^-2)/(d1 H1^-3 + d2 H2^-3)` for the
+    /// transport.
     #[must_use]
     pub fn from_profile(
         grid: &Grid,
@@ -61,10 +62,14 @@ impl Gap {
             // Beyond the ends of the slider there is nothing to be in series with.
             let before = profile(x, if i == 0 { 1.0 } else { -1.0 });
             let behind = profile(x, if i == n { -1.0 } else { 1.0 });
-            let resistance = before.powi(-3) + behind.powi(-3);
+            let width = |cell: usize| grid.around_widths[cell.min(n - 1)];
+            let total = width(i.saturating_sub(1)) + width(i);
+            let d_before = width(i.saturating_sub(1)) / total;
+            let d_behind = width(i) / total;
+            let series = |power: i32| d_before * before.powi(power) + d_behind * behind.powi(power);
             for j in 0..m {
-                gap.around_transport[i * m + j] = (before.powi(-2) + behind.powi(-2)) / resistance;
-                gap.around_cubed[i * m + j] = 2.0 / resistance;
+                gap.around_transport[i * m + j] = series(-2) / series(-3);
+                gap.around_cubed[i * m + j] = 1.0 / series(-3);
             }
         }
         for i in 0..n {

@@ -183,6 +183,41 @@ impl Operator {
         coefficient * film_fraction - self.stored[cell]
     }
 
+    /// Lets fed cells hold their pressure up to their faces: a groove ends at its edge, not in the
+    /// middle of its last cell, so that a face between land and feed conducts over the half cell of
+    /// the land alone. Call it after [`Operator::update`]; an edge half a cell off would be a
+    /// first-order error.
+    pub fn hold_feeds_to_edges(&mut self, grid: &Grid, cells: &[Cell]) {
+        let (n, m) = (self.n_around, self.n_axial);
+        let fed = |k: usize| cells[k] == Cell::Fed;
+        // What the land's half cell is of the distance between centres, inverted.
+        let gain = |of: [f64; 2], fed: [bool; 2]| match fed {
+            [true, false] => (of[0] + of[1]) / of[1],
+            [false, true] => (of[0] + of[1]) / of[0],
+            _ => 1.0,
+        };
+        for i in 0..=n {
+            let (before, behind) = match (i, self.around) {
+                (0, Around::Periodic) => (n - 1, 0),
+                (i, Around::Periodic) if i == n => (n - 1, 0),
+                (i, _) if i == 0 || i == n => continue,
+                _ => (i - 1, i),
+            };
+            let widths = [before, behind].map(|i| grid.around_widths[i]);
+            for j in 0..m {
+                let states = [before, behind].map(|i| fed(i * m + j));
+                self.conductance_around[i * m + j] *= gain(widths, states);
+            }
+        }
+        for i in 0..n {
+            for j in 1..m {
+                let widths = [j - 1, j].map(|j| grid.axial_widths[j]);
+                let states = [j - 1, j].map(|j| fed(i * m + j));
+                self.conductance_axial[i * (m + 1) + j] *= gain(widths, states);
+            }
+        }
+    }
+
     /// The cell before cell `(i, j)` around; `None` at a boundary.
     #[must_use]
     pub fn west(&self, i: usize, j: usize) -> Option<usize> {

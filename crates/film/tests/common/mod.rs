@@ -1,5 +1,8 @@
 //! Bearings that the tests share.
-#![allow(dead_code)]
+#![allow(dead_code, clippy::panic)]
+
+pub mod planar;
+pub mod recomputed;
 
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, Inlet,
@@ -81,4 +84,15 @@ pub fn unit_bearing(width_ratio: f64) -> Bearing {
 /// eta = psi^2, so that `p psi^2/(eta omega) = p` at 1 rad/s.
 pub fn unit_oil() -> Lubricant {
     Lubricant::constant(1e-6, 850.0)
+}
+
+/// Order by least squares of `ln error` over `ln cells`, from `(cells, error)`.
+pub fn least_squares_order(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logs: Vec<(f64, f64)> = points.iter().map(|(c, e)| (c.ln(), e.ln())).collect();
+    let mean = |f: fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>() / n;
+    let (x, y) = (mean(|l| l.0), mean(|l| l.1));
+    let covariance: f64 = logs.iter().map(|l| (l.0 - x) * (l.1 - y)).sum();
+    let variance: f64 = logs.iter().map(|l| (l.0 - x).powi(2)).sum();
+    -covariance / variance
 }

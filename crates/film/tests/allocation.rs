@@ -1,0 +1,119 @@
+//! After its first call an update of the film allocates nothing: it sits in the innermost loop of
+//! every orbit.
+#![allow(clippy::unwrap_used, unsafe_code)]
+
+mod common;
+
+use common::{big_end, conditions, feed_hole, oil};
+use sommerfeld_film::{
+    Bearing, Cavitation, FilmForce, FilmSolver, Inlet, JournalState, Outcome, Step,
+};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+/// The system's allocator, counting per thread.
+struct Counting;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    // A thread that ends has no counter any more.
+    let _ = ALLOCATIONS.try_with(|n| n.set(n.get() + 1));
+}
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations() -> usize {
+    ALLOCATIONS.with(Cell::get)
+}
+
+/// A journal on its way around, at step `k`.
+fn state(bearing: &Bearing, k: usize, duration: f64) -> JournalState {
+    let at = |k: f64| {
+        let angle = 0.3 * k;
+        [angle.cos(), angle.sin()].map(|d| 0.7 * bearing.radial_clearance * d)
+    };
+    let (now, before) = (at(k as f64), at(k as f64 - 1.0));
+    JournalState {
+        position: now,
+        velocity: [0, 1].map(|d: usize| (now[d] - before[d]) / duration),
+        tilt: [1e-4 * (k as f64).sin(), 5e-5],
+        journal_speed: 200.0,
+        journal_angle: 200.0 * duration * k as f64,
+        ..JournalState::default()
+    }
+}
+
+#[test]
+fn an_update_allocates_nothing_after_the_first() {
+    let duration = 1e-4;
+    let plain = || Bearing {
+        feeds: vec![feed_hole()],
+        ..big_end()
+    };
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
+        for (inlet, step) in [
+            (Inlet::Cyclic, Step::Steady),
+            (Inlet::Cyclic, Step::Implicit { duration }),
+            (Inlet::MaxFilmLine { pressure: 1e5 }, Step::Steady),
+        ] {
+            let bearing = Bearing {
+                cavitation,
+                inlet,
+                feeds: if inlet == Inlet::Cyclic {
+                    plain().feeds
+                } else {
+                    Vec::new()
+                },
+                ..plain()
+            };
+            let mut film = FilmSolver::new(&bearing, &oil(), [64, 16]).unwrap();
+            film.linearise(&state(&bearing, 0, duration), step, &conditions())
+                .unwrap();
+            film.accept_step();
+            let before = allocations();
+            let mut updates = 0;
+            for k in 1..=20 {
+                let state = state(&bearing, k, duration);
+                for _ in 0..4 {
+                    let answer = film.linearise(&state, step, &conditions()).unwrap();
+                    assert_eq!(answer.outcome, Outcome::Converged);
+                    updates += 1;
+                }
+                film.reject_step();
+                film.linearise(&state, step, &conditions()).unwrap();
+                film.accept_step();
+            }
+            let made = allocations() - before;
+            assert_eq!(made, 0, "{cavitation:?} {step:?}: {updates} updates");
+        }
+    }
+    // The counter counts.
+    let before = allocations();
+    drop(std::hint::black_box(vec![0_u8; 64]));
+    assert_eq!(allocations(), before + 1);
+}
