@@ -260,6 +260,8 @@ impl FilmSolver {
         let storage = film_storage(self.closure.as_ref(), step, &film.old_content);
         film.operator
             .update(&self.grid, &film.gap, state.mean_speed(), storage);
+        film.operator
+            .hold_feeds_to_edges(&self.grid, &film.set.cells);
     }
 
     fn solved(&self) -> SolvedFilm<'_> {
@@ -529,13 +531,18 @@ impl Film {
         self.solution.iter().all(|x| x.is_finite())
     }
 
-    /// One step of iterative refinement where elimination left more than round-off.
+    /// Iterative refinement where elimination left more than round-off of the flows.
     fn refine(&mut self) {
-        let largest = self.rhs.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let residual = self
-            .matrix
-            .residual(&self.solution, &self.rhs, &mut self.correction);
-        if residual > ROUND_OFF * largest {
+        const LARGEST_RESIDUAL: f64 = 1e-11;
+        const STEPS: usize = 2;
+        let bound = LARGEST_RESIDUAL * self.flow_unit();
+        for _ in 0..STEPS {
+            let residual = self
+                .matrix
+                .residual(&self.solution, &self.rhs, &mut self.correction);
+            if residual <= bound {
+                return;
+            }
             self.factor.solve(&mut self.correction);
             for (x, dx) in self.solution.iter_mut().zip(&self.correction) {
                 *x += dx;
@@ -543,11 +550,17 @@ impl Film {
         }
     }
 
+    /// Largest flow that drives the film: dragged along, stored or released, 1/s.
+    fn flow_unit(&self) -> f64 {
+        let operator = &self.operator;
+        let flows = operator.transport.iter().chain(&operator.storage);
+        flows.fold(0.0_f64, |a, b| a.max(b.abs()))
+    }
+
     /// Puts values that round-off alone keeps beyond their bound onto the bound, so that it decides
     /// no cell: both conditions hold with equality there.
     fn snap_round_off(&mut self) {
-        let flows = self.operator.transport.iter().chain(&self.operator.storage);
-        let scale = ROUND_OFF * flows.fold(0.0_f64, |a, b| a.max(b.abs()));
+        let scale = ROUND_OFF * self.flow_unit();
         for (k, x) in self.solution.iter_mut().enumerate() {
             let weight = self.matrix.centre[k];
             match self.set.cells[k] {

@@ -186,8 +186,6 @@ fn rupture_reynolds() {
 }
 
 #[test]
-#[ignore = "order 1.67: the solver holds a groove's pressure half a cell inside its edge; \
-            Operator::hold_feeds_to_edges is the remedy (order 2.0)"]
 fn rupture_mass_conserving() {
     let radius = big_end().radius();
     check(&Case {

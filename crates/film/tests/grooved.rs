@@ -167,8 +167,6 @@ fn check(cavitation: Cavitation, prefix: &str, bars: &[(&str, f64)]) {
 /// follows from the film's, angles to a hundredth of a degree (two for a place read off a parabola),
 /// flows to a ten-thousandth and torques to a thousandth, as accurate as the reference is printed.
 #[test]
-#[ignore = "minimum film 2.277 um on 128 x 32: the solver holds a groove's pressure half a cell \
-            inside its edge; Operator::hold_feeds_to_edges is the remedy"]
 fn mass_conserving() {
     check(
         Cavitation::MassConserving,
@@ -188,7 +186,6 @@ fn mass_conserving() {
 }
 
 #[test]
-#[ignore = "as the test above"]
 fn reynolds() {
     check(
         Cavitation::Reynolds,

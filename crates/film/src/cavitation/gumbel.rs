@@ -3,7 +3,7 @@
 
 use super::{CavitationModel, FilmSet, RupturedRow, assemble_balance};
 use crate::linear::RingMatrix;
-use crate::reynolds::{Cell, Operator};
+use crate::reynolds::Operator;
 
 /// The closure after Guembel.
 #[derive(Debug, Clone, Copy)]
@@ -41,16 +41,16 @@ impl CavitationModel for Gumbel {
         solution
     }
 
+    /// There is nothing to decide: the full film, ends included, is solved as it is.
     fn update_set(
         &self,
-        operator: &Operator,
-        pressure: &[f64],
+        _operator: &Operator,
+        _pressure: &[f64],
         _film_fraction: &[f64],
         _excess: &[f64],
-        tolerance: f64,
-        set: &mut FilmSet,
+        _tolerance: f64,
+        _set: &mut FilmSet,
     ) -> usize {
-        debug_assert!(set.cells.iter().all(|c| *c != Cell::Ruptured));
-        set.update_ends(operator, pressure, tolerance)
+        0
     }
 }
