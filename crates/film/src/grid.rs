@@ -192,16 +192,44 @@ fn faces_through(
 }
 
 /// Shares `n` cells among stretches in proportion to their lengths, at least one each: the next
-/// cell always goes to the stretch whose cells are the longest.
+/// cell always goes to the stretch whose cells are the longest. Stretches that mirror one another get
+/// alike as long as the cells last, so that a symmetric bearing has a symmetric grid.
 fn share_cells(lengths: &[f64], n: usize) -> Vec<usize> {
-    let mut shares = vec![1; lengths.len()];
-    for _ in lengths.len()..n {
-        let longest = (0..lengths.len()).max_by(|&a, &b| {
+    let count = lengths.len();
+    let total: f64 = lengths.iter().sum();
+    let is_symmetric =
+        (0..count).all(|k| (lengths[k] - lengths[count - 1 - k]).abs() < 1e-9 * total);
+    let mut shares = vec![1; count];
+    let mut left = n.saturating_sub(count);
+    while left > 0 {
+        let candidates = (0..count).filter(|k| {
+            // The last cell of a symmetric grid belongs in the middle, if there is one.
+            !is_symmetric || left > 1 || count.is_multiple_of(2) || 2 * k + 1 == count
+        });
+        let longest = candidates.max_by(|&a, &b| {
             (lengths[a] / shares[a] as f64).total_cmp(&(lengths[b] / shares[b] as f64))
         });
-        if let Some(k) = longest {
-            shares[k] += 1;
+        let Some(k) = longest else { break };
+        let mirror = count - 1 - k;
+        shares[k] += 1;
+        left -= 1;
+        if is_symmetric && mirror != k && left > 0 {
+            shares[mirror] += 1;
+            left -= 1;
         }
     }
     shares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn mirrored_stretches_get_alike() {
+        assert_eq!(share_cells(&[12.0, 6.0, 12.0], 32), [13, 6, 13]);
+        assert_eq!(share_cells(&[6.0, 18.0, 6.0], 16), [3, 10, 3]);
+        assert_eq!(share_cells(&[1.0, 3.0], 8), [2, 6]);
+        assert_eq!(share_cells(&[1.0, 2.0, 1.0], 3), [1, 1, 1]);
+    }
 }

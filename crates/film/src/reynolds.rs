@@ -18,11 +18,6 @@
 use crate::gap::Gap;
 use crate::grid::Grid;
 
-/// Share of the transport that a steady ruptured film loses: far below round-off of the flows that
-/// matter, it empties rings of ruptured cells that nothing feeds and nothing drains, where any film
-/// fraction would balance.
-const STEADY_LEAK: f64 = 1e-12;
-
 /// What limits the film around: at its first and last face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Around {
@@ -159,9 +154,6 @@ impl Operator {
                     }
                 };
                 self.ruptured_storage[k] = self.storage[k].max(least);
-                if storage == Storage::Rate {
-                    self.ruptured_storage[k] += STEADY_LEAK * self.outflow(k);
-                }
             }
         }
     }

@@ -533,7 +533,7 @@ impl Film {
 
     /// Iterative refinement where elimination left more than round-off of the flows.
     fn refine(&mut self) {
-        const LARGEST_RESIDUAL: f64 = 1e-11;
+        const LARGEST_RESIDUAL: f64 = 1e-12;
         const STEPS: usize = 2;
         let bound = LARGEST_RESIDUAL * self.flow_unit();
         for _ in 0..STEPS {
@@ -553,8 +553,12 @@ impl Film {
     /// Largest flow that drives the film: dragged along, stored or released, 1/s.
     fn flow_unit(&self) -> f64 {
         let operator = &self.operator;
-        let flows = operator.transport.iter().chain(&operator.storage);
-        flows.fold(0.0_f64, |a, b| a.max(b.abs()))
+        let dragged = operator
+            .transport
+            .iter()
+            .fold(0.0_f64, |a, b| a.max(b.abs()));
+        let stored = operator.storage.iter().zip(&operator.stored);
+        stored.fold(dragged, |a, (new, old)| a.max((new - old).abs()))
     }
 
     /// Puts values that round-off alone keeps beyond their bound onto the bound, so that it decides

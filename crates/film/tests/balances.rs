@@ -145,7 +145,13 @@ fn assert_balanced(name: &str, film: &FilmSolver, sum: &Recomputed) {
     for (feed, flow) in film.feed_flows().iter().zip(&sum.feed_flows) {
         assert!((feed.flow - flow).abs() <= scale, "{name}: {feed:?} {flow}");
     }
-    assert!((summary.storage_rate - sum.growth).abs() <= scale, "{name}");
+    let growth = sum.growth;
+    let stored = summary.storage_rate;
+    assert!(
+        (stored - growth).abs() <= scale,
+        "{name}: {stored:e} {growth:e} of {:e}",
+        sum.largest_flow
+    );
 }
 
 fn assert_bearing_balances(name: &str, sum: &Recomputed) {

@@ -26,6 +26,7 @@ impl CavitationModel for MassConserving {
         rhs: &mut [f64],
     ) {
         assemble_balance(operator, set, RupturedRow::FilmFraction, matrix, rhs);
+        drain_closed_circles(operator, set, matrix);
     }
 
     fn fields(
@@ -80,4 +81,20 @@ impl CavitationModel for MassConserving {
 /// Whether a film fraction has anything to balance it: transport out of the cell, or storage.
 fn can_drain(operator: &Operator, cell: usize) -> bool {
     operator.outflow(cell) + operator.ruptured_storage[cell] > 0.0
+}
+
+/// Around a circle of ruptured cells oil turns for ever: where nothing enters and nothing is stored,
+/// any film fraction balances. A leak far below every other flow picks the empty one of them, which
+/// balances exactly; a circle into which oil does flow fills and is ruptured no longer.
+fn drain_closed_circles(operator: &Operator, set: &FilmSet, matrix: &mut RingMatrix) {
+    const LEAK: f64 = 1e-9;
+    let (n, m) = (operator.n_around, operator.n_axial);
+    for j in 0..m {
+        let is_idle = |k: usize| set.cells[k] == Cell::Ruptured && operator.stored[k] == 0.0;
+        if (0..n).all(|i| is_idle(i * m + j)) {
+            for i in 0..n {
+                matrix.centre[i * m + j] *= 1.0 + LEAK;
+            }
+        }
+    }
 }

@@ -7,7 +7,7 @@ use sommerfeld_film::{
 use std::f64::consts::TAU;
 
 /// Whether a feed's pressure holds up to the faces of its cells, or in the middle of its cells.
-pub const FEEDS_HOLD_TO_EDGES: bool = false;
+pub const FEEDS_HOLD_TO_EDGES: bool = true;
 
 /// How the content of the film changes.
 #[derive(Clone, Copy)]
@@ -235,6 +235,15 @@ pub fn recompute(
             }
             let share = match bearing.film_shear {
                 FilmShear::FullWidth => 1.0,
+                // The film fraction belongs to the gap at the face it drains through.
+                FilmShear::FilmFraction if theta < 1.0 => {
+                    let speed = state.journal_speed + state.shell_speed;
+                    let face = if speed > 0.0 { i + 1 } else { i };
+                    let z = 0.5 * (film.places[j] + film.places[j + 1]);
+                    let drained = film.thickness(film.angles[face], z);
+                    let drained = if speed == 0.0 { thickness } else { drained };
+                    (theta * drained / thickness).min(1.0)
+                }
                 FilmShear::FilmFraction => theta,
             };
             sum.shear_loss += share * viscosity * sliding * sliding / thickness * area;
