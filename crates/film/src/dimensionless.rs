@@ -224,3 +224,26 @@ fn combine(
         peak: with(a.peak, b.peak),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gap_of_a_tilted_film_closes_at_an_edge() {
+        let film = DimensionlessFilm {
+            d_over_b: 2.0,
+            relative_eccentricity: 0.8,
+            tilt_gamma: 1.0,
+            tilt_delta: 0.0,
+            wedge: 1.0,
+            squeeze: 0.0,
+            cavitation: Cavitation::Reynolds,
+            inlet: Inlet::Cyclic,
+        };
+        let narrowest = film.narrowest_gap();
+        assert!(narrowest.relative_film_thickness.abs() < 1e-12);
+        assert!((narrowest.phi_deg - 180.0).abs() < 1e-9);
+        assert!((narrowest.z + 1.0).abs() < 1e-12);
+    }
+}

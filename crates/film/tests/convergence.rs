@@ -47,7 +47,7 @@ struct Line {
 
 fn table(case: &Case, reference: [f64; 2], lines: &[Line]) -> String {
     let mut text = format!(
-        "# {}\n# reference: force {:.9e} {:.9e} N, extrapolated from {} x {} and {} x {} cells\n\
+        "# source: this program, crates/film/tests/convergence.rs\n# {}\n# reference: force {:.9e} {:.9e} N, extrapolated from {} x {} and {} x {} cells\n\
          cells_around,cells_along,error[-],order[-],iterations\n",
         case.words,
         reference[0],

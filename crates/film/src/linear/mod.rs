@@ -1,5 +1,7 @@
 //! Direct solution of the film's linear systems.
 
+mod kernels;
 pub mod ring;
 
-pub use ring::{Lanes, RingFactor, RingMatrix};
+pub use kernels::Lanes;
+pub use ring::{RingFactor, RingMatrix};

@@ -235,23 +235,4 @@ mod tests {
         assert_eq!(input_hash(&[]), "6c62272e07bb014262b821756295c58d");
         assert_ne!(input_hash(&[b"ab", b"c"]), input_hash(&[b"a", b"bc"]));
     }
-
-    #[test]
-    fn the_gap_of_a_tilted_case_closes_at_an_edge() {
-        let case = DimensionlessCase {
-            d_over_b: 2.0,
-            relative_eccentricity: 0.8,
-            tilt_gamma: 1.0,
-            tilt_delta: 0.0,
-            wedge: 1.0,
-            squeeze: 0.0,
-            cavitation: Cavitation::Reynolds,
-            inlet: Inlet::Cyclic,
-            ends: Ends::Air,
-        };
-        let (gap, [phi, z]) = case.minimum_gap();
-        assert!(gap.abs() < 1e-12, "{gap}");
-        assert!((phi - std::f64::consts::PI).abs() < 1e-12, "{phi}");
-        assert!((z + 1.0).abs() < 1e-12, "{z}");
-    }
 }

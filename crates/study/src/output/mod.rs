@@ -1,12 +1,13 @@
 //! Results as files: one writer per format, iterated from one list.
 
 mod csv;
+mod html;
 mod json;
 
 pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
+pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
 
-use crate::report::HtmlReport;
 use crate::results::Results;
 use std::fs;
 use std::io;

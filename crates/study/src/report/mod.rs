@@ -12,7 +12,6 @@ mod format;
 mod page;
 mod steady;
 
-use crate::output::{OutputError, ResultWriter};
 use crate::results::{Body, Results};
 use minijinja::{Environment, Value, context};
 use page::Page;
@@ -23,29 +22,11 @@ const STYLE: &str = include_str!("assets/report.css");
 const SCRIPT: &str = include_str!("assets/report.js");
 const DRAWING_LIBRARY: &str = include_str!("assets/plotly.min.js");
 
-/// Writes `report.html`.
-#[derive(Debug, Clone, Copy)]
-pub struct HtmlReport;
-
-impl ResultWriter for HtmlReport {
-    fn file_name(&self) -> &'static str {
-        FILE_NAME
-    }
-
-    fn describe(&self) -> &'static str {
-        "report with figures and tables, one offline file"
-    }
-
-    fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
-        render(results).map(|text| Some(text.into_bytes()))
-    }
-}
-
 /// The report as HTML text.
 ///
 /// # Errors
-/// [`OutputError::Content`] if the template does not take the page.
-pub fn render(results: &Results) -> Result<String, OutputError> {
+/// What the template engine says if the template does not take the page.
+pub fn render(results: &Results) -> Result<String, minijinja::Error> {
     let header = &results.header;
     let mut page = Page::of(header);
     let data = match &results.body {
@@ -62,22 +43,17 @@ pub fn render(results: &Results) -> Result<String, OutputError> {
     } else {
         DRAWING_LIBRARY
     };
-    environment
-        .render_named_str(
-            FILE_NAME,
-            TEMPLATE,
-            context! {
-                page => Value::from_serialize(&page),
-                style => Value::from_safe_string(STYLE.to_owned()),
-                script => Value::from_safe_string(SCRIPT.to_owned()),
-                library => Value::from_safe_string(library.to_owned()),
-                data => Value::from_safe_string(data),
-            },
-        )
-        .map_err(|error| OutputError::Content {
-            file: FILE_NAME,
-            reason: format!("{error:#}"),
-        })
+    environment.render_named_str(
+        FILE_NAME,
+        TEMPLATE,
+        context! {
+            page => Value::from_serialize(&page),
+            style => Value::from_safe_string(STYLE.to_owned()),
+            script => Value::from_safe_string(SCRIPT.to_owned()),
+            library => Value::from_safe_string(library.to_owned()),
+            data => Value::from_safe_string(data),
+        },
+    )
 }
 
 /// JSON text that cannot end or change the script element it stands in: the characters that could
