@@ -268,10 +268,19 @@ impl SolvedFilm<'_> {
             ),
             _ => (0.0, 0.0),
         };
-        let along = if j == 0 || j + 1 == m {
+        let z = &self.grid.axial;
+        let along = if j + 1 == m && self.operator.ends_at_mid_plane {
+            let before = if j == 0 {
+                top
+            } else {
+                self.pressure[highest - 1]
+            };
+            let width = self.grid.axial_widths[j];
+            let before_width = if j == 0 { width } else { z[j] - z[j - 1] };
+            parabola_peak([before, top, top], [before_width, width])
+        } else if j == 0 || j + 1 == m {
             (0.0, 0.0)
         } else {
-            let z = &self.grid.axial;
             parabola_peak(
                 [self.pressure[highest - 1], top, self.pressure[highest + 1]],
                 [z[j] - z[j - 1], z[j + 1] - z[j]],

@@ -21,6 +21,7 @@ pub mod grid;
 pub mod integrals;
 pub mod journal_state;
 pub mod linear;
+pub mod mirror;
 pub mod reynolds;
 pub mod solver;
 pub mod supply;

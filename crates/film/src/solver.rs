@@ -17,9 +17,10 @@ use crate::force::{
 use crate::frame::Frame;
 use crate::gap::{AngleTables, Gap};
 use crate::grid::Grid;
-use crate::integrals::{SolvedFilm, Units, relative_motion};
+use crate::integrals::{SolvedFilm, Units, minimum_film, relative_motion};
 use crate::journal_state::JournalState;
 use crate::linear::{Lanes, RingFactor, RingMatrix};
+use crate::mirror::{Extent, half_of};
 use crate::reynolds::{Around, Axial, Cell, Operator, Storage};
 use crate::supply::mark_fed_cells;
 use sommerfeld_oil::Lubricant;
@@ -33,6 +34,7 @@ pub struct FilmSolver {
     lubricant: Lubricant,
     closure: Box<dyn CavitationModel>,
     frame: Frame,
+    extent: Extent,
     grid: Grid,
     angles: AngleTables,
     film: Film,
@@ -77,6 +79,7 @@ struct Fields {
     angles: Vec<f64>,
     axial: Vec<f64>,
     pressure: Vec<f64>,
+    film_fraction: Vec<f64>,
     film_thickness: Vec<f64>,
 }
 
@@ -94,12 +97,31 @@ impl FilmSolver {
         match bearing.inlet {
             Inlet::Cyclic => {
                 let grid = Grid::shell_fixed(bearing, n_around, n_axial);
-                Self::on_grid(bearing, lubricant, grid, Frame::Shell)
+                Self::on_grid(bearing, lubricant, grid, Frame::Shell, Extent::Whole)
             }
             Inlet::MaxFilmLine { .. } => {
                 Self::following(bearing, lubricant, [n_around, n_axial], 0.0)
             }
         }
+    }
+
+    /// The same for a journal that stays aligned: where the bearing is its own mirror image, half of
+    /// it is solved. It refuses tilt, and its tangent by tilt is zero.
+    ///
+    /// # Errors
+    /// As [`FilmSolver::new`].
+    pub fn aligned(
+        bearing: &Bearing,
+        lubricant: &Lubricant,
+        cells: [usize; 2],
+    ) -> Result<Self, FilmError> {
+        if bearing.inlet == Inlet::Cyclic {
+            let grid = Grid::shell_fixed(bearing, cells[0], cells[1]);
+            if let Some(half) = half_of(bearing, &grid) {
+                return Self::on_grid(bearing, lubricant, half, Frame::Shell, Extent::Half);
+            }
+        }
+        Self::new(bearing, lubricant, cells)
     }
 
     /// A solver whose grid turns with the line of centres, graded towards the narrowest gap
@@ -114,7 +136,13 @@ impl FilmSolver {
         grading: f64,
     ) -> Result<Self, FilmError> {
         let grid = Grid::following(bearing, n_around, n_axial, grading);
-        Self::on_grid(bearing, lubricant, grid, Frame::LineOfCentres)
+        Self::on_grid(
+            bearing,
+            lubricant,
+            grid,
+            Frame::LineOfCentres,
+            Extent::Whole,
+        )
     }
 
     fn on_grid(
@@ -122,6 +150,7 @@ impl FilmSolver {
         lubricant: &Lubricant,
         grid: Grid,
         frame: Frame,
+        extent: Extent,
     ) -> Result<Self, FilmError> {
         if frame == Frame::LineOfCentres && !bearing.feeds.is_empty() {
             return Err(FilmError::Unsupported {
@@ -131,18 +160,19 @@ impl FilmSolver {
         }
         let coarse = match grid.coarsened() {
             Some(coarse) => {
-                let solver = Self::on_grid(bearing, lubricant, coarse, frame)?;
+                let solver = Self::on_grid(bearing, lubricant, coarse, frame, extent)?;
                 Some(Box::new(solver))
             }
             None => None,
         };
         let angles = AngleTables::new(&grid);
         Ok(Self {
-            film: Film::new(bearing, lubricant, &grid),
+            film: Film::new(bearing, lubricant, &grid, extent),
             bearing: bearing.clone(),
             lubricant: lubricant.clone(),
             closure: model_of(bearing.cavitation),
             frame,
+            extent,
             angles,
             grid,
             coarse,
@@ -204,7 +234,10 @@ impl FilmSolver {
                          cavitation = \"reynolds\"",
             });
         }
-        let least = crate::integrals::minimum_film(&self.bearing, state);
+        if self.extent == Extent::Half && (state.tilt, state.tilt_rate) != ([0.0; 2], [0.0; 2]) {
+            return Err(FilmError::NoTilt);
+        }
+        let least = minimum_film(&self.bearing, state);
         if least.value > 0.0 {
             return Ok(());
         }
@@ -309,7 +342,7 @@ impl FilmSolver {
 impl FilmForce for FilmSolver {
     fn capabilities(&self) -> Capabilities {
         Capabilities {
-            accepts_tilt: true,
+            accepts_tilt: self.extent == Extent::Whole,
             has_history: self.closure.conserves_mass(),
             conserves_mass: self.closure.conserves_mass(),
             // A front that must cross the bearing moves at least a cell per update.
@@ -342,11 +375,13 @@ impl FilmForce for FilmSolver {
         if !self.film.solve(self.closure.as_ref()) {
             return Ok(Linearised::without_film(Outcome::NoSolution));
         }
-        let reaction = self.solved().reaction(&local);
-        let tangent = self.tangent(step);
+        self.film.account_feeds(self.extent);
+        let reaction = self.extent.reaction(self.solved().reaction(&local));
+        let tangent = self.extent.tangent(self.tangent(step));
         let (reaction, tangent) = self.frame.from_grid(&local, turned, reaction, tangent);
         self.film.reaction = reaction;
-        self.film.write_fields(&self.bearing, &self.grid, turned);
+        self.film
+            .write_fields(&self.bearing, &self.grid, self.extent, turned);
         let moved = self.film.advance_set(self.closure.as_ref());
         Ok(Linearised {
             reaction,
@@ -360,7 +395,9 @@ impl FilmForce for FilmSolver {
         let solved = self.solved();
         let film = &self.film;
         let turned = self.frame.turn(&film.state);
-        let mut summary = solved.summary(&film.state, &film.reaction);
+        let mut summary = self
+            .extent
+            .flows(solved.summary(&film.state, &film.reaction));
         summary.peak_film_pressure.angle += turned;
         summary.complementarity_violation = film.complementarity_violation();
         summary.cell_residual = film.cell_residual(self.closure.as_ref());
@@ -381,7 +418,7 @@ impl FilmForce for FilmSolver {
             angles: &fields.angles,
             axial: &fields.axial,
             pressure: &fields.pressure,
-            film_fraction: &self.film.film_fraction,
+            film_fraction: &fields.film_fraction,
             film_thickness: &fields.film_thickness,
         })
     }
@@ -413,14 +450,20 @@ impl FilmForce for FilmSolver {
 }
 
 impl Film {
-    fn new(bearing: &Bearing, lubricant: &Lubricant, grid: &Grid) -> Self {
+    fn new(bearing: &Bearing, lubricant: &Lubricant, grid: &Grid, extent: Extent) -> Self {
         let (n, m) = (grid.n_around(), grid.n_axial());
+        let solved: Vec<f64> = grid.axial.iter().map(|z| z * bearing.radius()).collect();
+        let axial = extent.unfold_axial(&solved);
+        let all = vec![0.0; n * axial.len()];
         let matrix = RingMatrix::new(n, m, bearing.inlet == Inlet::Cyclic);
         let zero = vec![0.0; n * m];
         let around = Around::Periodic;
         Self {
             gap: Gap::for_grid(grid),
-            operator: Operator::for_grid(grid, around, Axial::Air(0.0)),
+            operator: Operator {
+                ends_at_mid_plane: extent == Extent::Half,
+                ..Operator::for_grid(grid, around, Axial::Air(0.0))
+            },
             set: FilmSet::full(n, m),
             factor: RingFactor::new(&matrix),
             matrix,
@@ -444,9 +487,10 @@ impl Film {
             feed_flows: vec![FeedFlow::default(); bearing.feeds.len()],
             fields: Fields {
                 angles: grid.around.clone(),
-                axial: grid.axial.iter().map(|z| z * bearing.radius()).collect(),
-                pressure: zero.clone(),
-                film_thickness: zero,
+                axial,
+                pressure: all.clone(),
+                film_fraction: all.clone(),
+                film_thickness: all,
             },
         }
     }
@@ -527,7 +571,6 @@ impl Film {
         self.flow_scale =
             self.operator
                 .balance(&self.pressure, &self.film_fraction, &mut self.excess);
-        self.account_feeds();
         self.solution.iter().all(|x| x.is_finite())
     }
 
@@ -576,13 +619,13 @@ impl Film {
         }
     }
 
-    fn account_feeds(&mut self) {
+    fn account_feeds(&mut self, extent: Extent) {
         for feed in &mut self.feed_flows {
             feed.flow = 0.0;
         }
         for (k, feed) in self.fed_by.iter().enumerate() {
             if let Some(feed) = feed {
-                self.feed_flows[*feed].flow -= self.excess[k] * self.units.flow;
+                self.feed_flows[*feed].flow -= extent.images() * self.excess[k] * self.units.flow;
             }
         }
     }
@@ -598,15 +641,18 @@ impl Film {
         )
     }
 
-    fn write_fields(&mut self, bearing: &Bearing, grid: &Grid, turned: f64) {
+    fn write_fields(&mut self, bearing: &Bearing, grid: &Grid, extent: Extent, turned: f64) {
         let fields = &mut self.fields;
         for (angle, local) in fields.angles.iter_mut().zip(&grid.around) {
             *angle = local + turned;
         }
-        for (k, (p, h)) in self.pressure.iter().zip(&self.gap.mean).enumerate() {
-            fields.pressure[k] = p * self.units.pressure + bearing.cavitation_pressure;
-            fields.film_thickness[k] = h * self.units.clearance;
-        }
+        let m = grid.n_axial();
+        let units = &self.units;
+        let pressure = |k: usize| self.pressure[k] * units.pressure + bearing.cavitation_pressure;
+        extent.unfold(m, pressure, &mut fields.pressure);
+        extent.unfold(m, |k| self.film_fraction[k], &mut fields.film_fraction);
+        let thickness = |k: usize| self.gap.mean[k] * units.clearance;
+        extent.unfold(m, thickness, &mut fields.film_thickness);
     }
 
     fn complementarity_violation(&self) -> f64 {

@@ -179,10 +179,24 @@ fn input_rows(text: &str) -> Vec<InputRow> {
     rows
 }
 
+/// Whether the journal cannot tilt in this duty.
+fn stays_aligned(duty: &Duty) -> bool {
+    match duty {
+        Duty::State(state) => state.tilt == [0.0; 2] && state.tilt_rate == [0.0; 2],
+        Duty::Load(load) => load.tilt == TiltCondition::Fixed([0.0; 2]),
+        Duty::Cycle(duty) => !duty.tilt_is_free,
+    }
+}
+
 /// The film model that the study names.
 fn film_of(case: &BearingCase, settings: &FilmSettings) -> Result<Box<dyn FilmForce>, FilmError> {
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
     Ok(match settings.model {
+        FilmModel::Field if stays_aligned(&case.duty) => Box::new(FilmSolver::aligned(
+            &case.bearing,
+            &case.lubricant,
+            settings.grid,
+        )?),
         FilmModel::Field => Box::new(FilmSolver::new(
             &case.bearing,
             &case.lubricant,
