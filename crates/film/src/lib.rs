@@ -14,6 +14,7 @@ pub mod bearing;
 pub mod cavitation;
 pub mod closed_form;
 pub mod dimensionless;
+mod film_state;
 pub mod force;
 pub mod frame;
 pub mod gap;
