@@ -38,6 +38,8 @@ pub(crate) struct FilmState {
     pub(crate) content: Vec<f64>,
     /// Content that an implicit step starts from.
     pub(crate) old_content: Vec<f64>,
+    /// Time from the last state to the end of its step, s.
+    pub(crate) after: f64,
     pub(crate) is_warm: bool,
     pub(crate) iterations: usize,
     pub(crate) state: JournalState,
@@ -91,6 +93,7 @@ impl FilmState {
             adjoints: vec![[0.0; 4]; n * m],
             content: Vec::with_capacity(n * m),
             old_content: zero.clone(),
+            after: 0.0,
             is_warm: false,
             iterations: 0,
             state: JournalState::default(),
@@ -151,15 +154,17 @@ impl FilmState {
     /// Content at the start of an implicit step: the accepted one, or, at the very first step, the
     /// full film of the position that the step came from.
     pub(crate) fn take_old_content(&mut self, step: Step) {
-        let Step::Implicit { duration } = step else {
+        let Step::Implicit { duration, after } = step else {
+            self.after = 0.0;
             return;
         };
+        self.after = after;
         if self.content.len() == self.old_content.len() {
             self.old_content.copy_from_slice(&self.content);
         } else {
             let gaps = self.gap.mean.iter().zip(&self.gap.rate);
             for (old, (mean, rate)) in self.old_content.iter_mut().zip(gaps) {
-                *old = mean - rate * duration;
+                *old = mean - rate * (duration - after);
             }
         }
     }
@@ -305,5 +310,15 @@ impl FilmState {
         } else {
             0.0
         }
+    }
+
+    /// What the last step leaves in the cells becomes the accepted content.
+    pub(crate) fn keep_content(&mut self) {
+        self.content.clear();
+        let gaps = self.gap.mean.iter().zip(&self.gap.rate);
+        let content = self.film_fraction.iter().zip(gaps);
+        let after = self.after;
+        self.content
+            .extend(content.map(|(theta, (mean, rate))| theta * (mean + after * rate)));
     }
 }

@@ -311,8 +311,11 @@ impl SolvedFilm<'_> {
         self.sensitivity_axial(adjoints, &mut by_position);
         match storage {
             Storage::Rate => self.sensitivity_storage(adjoints, 1.0, &mut by_rate),
-            Storage::Step { duration, .. } => {
+            Storage::Step {
+                duration, after, ..
+            } => {
                 self.sensitivity_storage(adjoints, 1.0 / duration, &mut by_position);
+                self.sensitivity_storage(adjoints, after / duration, &mut by_rate);
             }
         }
         Tangent {
@@ -408,7 +411,8 @@ impl SolvedFilm<'_> {
         outward * conductance * (self.pressure[inside] - outside)
     }
 
-    /// `per_time`: 1 for rates of change, 1/duration for steps.
+    /// `per_time`: 1 for rates of change; 1/duration for the gap and after/duration for its rate in
+    /// steps.
     fn sensitivity_storage(&self, adjoints: &[Lanes], per_time: f64, by: &mut Sensitivity) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {

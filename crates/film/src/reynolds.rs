@@ -49,6 +49,8 @@ pub enum Storage<'a> {
     Step {
         /// Duration, s.
         duration: f64,
+        /// Time from the gap given to the end of the step, s.
+        after: f64,
         /// Old content.
         old: &'a [f64],
     },
@@ -156,8 +158,13 @@ impl Operator {
                 let least = -self.outflow(k) * grid.around_widths[i];
                 (self.storage[k], self.stored[k]) = match storage {
                     Storage::Rate => (gap.rate[k] * area, 0.0),
-                    Storage::Step { duration, old } => {
-                        (gap.mean[k] * area / duration, old[k] * area / duration)
+                    Storage::Step {
+                        duration,
+                        after,
+                        old,
+                    } => {
+                        let end = gap.mean[k] + after * gap.rate[k];
+                        (end * area / duration, old[k] * area / duration)
                     }
                 };
                 self.ruptured_storage[k] = self.storage[k].max(least);

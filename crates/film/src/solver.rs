@@ -382,10 +382,7 @@ impl FilmForce for FilmSolver {
     fn accept_step(&mut self) {
         self.film.iterations = 0;
         if self.closure.conserves_mass() {
-            let film = &mut self.film;
-            film.content.clear();
-            let content = film.film_fraction.iter().zip(&film.gap.mean);
-            film.content.extend(content.map(|(theta, h)| theta * h));
+            self.film.keep_content();
         }
     }
 
@@ -408,7 +405,11 @@ impl FilmForce for FilmSolver {
 /// How time enters for a closure: only one that transports film content stores it.
 fn film_storage<'a>(closure: &dyn CavitationModel, step: Step, old: &'a [f64]) -> Storage<'a> {
     match step {
-        Step::Implicit { duration } if closure.conserves_mass() => Storage::Step { duration, old },
+        Step::Implicit { duration, after } if closure.conserves_mass() => Storage::Step {
+            duration,
+            after,
+            old,
+        },
         _ => Storage::Rate,
     }
 }

@@ -43,7 +43,13 @@ fn half_a_mirrored_film_is_the_whole() {
             let mut whole = FilmSolver::new(&bearing, &oil(), [64, 16]).unwrap();
             let mut half = FilmSolver::aligned(&bearing, &oil(), [64, 16]).unwrap();
             assert!(!half.capabilities().accepts_tilt, "the half was not taken");
-            for step in [Step::Steady, Step::Implicit { duration: 2e-4 }] {
+            for step in [
+                Step::Steady,
+                Step::Implicit {
+                    duration: 2e-4,
+                    after: 0.0,
+                },
+            ] {
                 let shift = if step == Step::Steady { 0.0 } else { 2e-4 };
                 let velocity = [30.0 * c, -50.0 * c];
                 let state = JournalState {
