@@ -134,16 +134,23 @@ impl std::fmt::Display for LimitCheck {
             Verdict::Exceeded => "EXCEEDED",
             Verdict::NotEvaluated => "not evaluated",
         };
-        let Limit {
-            quantity,
-            value,
-            source,
-        } = &self.limit;
-        let unit = quantity.unit_suffix();
+        let quantity = self.limit.quantity;
+        let (factor, unit) = match quantity {
+            Quantity::MinimumFilmThickness => (1e6, "um"),
+            Quantity::PeakFilmPressure | Quantity::MaximumSpecificLoad => (1e-6, "MPa"),
+            Quantity::PowerLoss => (1.0, "W"),
+        };
+        let side = match quantity.side() {
+            Side::AtLeast => "at least",
+            Side::AtMost => "at most",
+        };
+        // Without the round-off of the units.
+        let value = (self.limit.value * factor * 1e6).round() / 1e6;
         write!(
             f,
-            "limit {}_{unit} {value:e} ({source}): {verdict}",
-            quantity.key()
+            "limit: {} {side} {value} {unit} ({}): {verdict}",
+            quantity.key().replace('_', " "),
+            self.limit.source
         )
     }
 }
@@ -176,6 +183,15 @@ mod tests {
     fn what_is_not_a_number_is_not_judged() {
         let check = LimitCheck::new(film_limit(), Some(f64::NAN));
         assert_eq!((check.verdict, check.found), (Verdict::NotEvaluated, None));
+    }
+
+    #[test]
+    fn a_check_reads_in_the_units_of_users() {
+        let check = LimitCheck::new(film_limit(), Some(0.9e-6));
+        assert_eq!(
+            check.to_string(),
+            "limit: minimum film thickness at least 1 um (house rule): EXCEEDED"
+        );
     }
 
     #[test]

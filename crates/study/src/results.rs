@@ -242,8 +242,11 @@ impl Results {
 impl SteadyResults {
     fn key_figures(&self) -> Vec<(&'static str, String)> {
         let film = &self.summary;
+        if film.minimum_film_thickness.value.is_nan() {
+            return Vec::new();
+        }
         let side_flow = film.side_flow[0] + film.side_flow[1];
-        vec![
+        let mut figures = vec![
             (
                 "relative eccentricity",
                 format!("{:.5}", self.relative_eccentricity()),
@@ -258,7 +261,16 @@ impl SteadyResults {
             ),
             ("power loss", format!("{:.1} W", film.power_loss())),
             ("side flow", cubic_centimetres(side_flow)),
-        ]
+        ];
+        let rows = |[x, y]: [[f64; 2]; 2], unit| {
+            format!(
+                "[[{:.4e}, {:.4e}], [{:.4e}, {:.4e}]] {unit}",
+                x[0], x[1], y[0], y[1]
+            )
+        };
+        figures.extend(self.stiffness.map(|k| ("stiffness", rows(k, "N/m"))));
+        figures.extend(self.damping.map(|d| ("damping", rows(d, "N s/m"))));
+        figures
     }
 
     /// Eccentricity in the mid-plane over the radial clearance.

@@ -56,6 +56,26 @@ pub enum OutputError {
     },
 }
 
+/// Makes the directory if it is missing and sees that files can be written into it.
+///
+/// # Errors
+/// [`OutputError::Disk`].
+pub fn prepare_directory(directory: &Path) -> Result<(), OutputError> {
+    let failed = |action, path: &Path| {
+        let path = path.to_path_buf();
+        move |source| OutputError::Disk {
+            action,
+            path,
+            source,
+        }
+    };
+    fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
+    let trial = directory.join(".part");
+    fs::File::create(&trial)
+        .and_then(|_| fs::remove_file(&trial))
+        .map_err(failed("write into the directory", directory))
+}
+
 /// Writes every format these results have into `directory`, which is created if missing, and
 /// returns the files in the order of writing. Other files in the directory are left alone.
 ///

@@ -7,7 +7,7 @@ mod steady;
 use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
-use crate::output::{OutputError, write_all};
+use crate::output::{OutputError, prepare_directory, write_all};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, DimensionlessResults, Header, Results};
 use cycle::solve_cycle;
@@ -56,6 +56,8 @@ pub fn run(
     directory: &Path,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
+    // Better told before a long run than after it.
+    prepare_directory(directory)?;
     let results = solve(study, progress)?;
     let files = write_all(&results, directory)?;
     Ok(RunSummary { results, files })
@@ -196,8 +198,9 @@ fn note_outcome(outcome: Outcome, header: &mut Header) {
         }
         Outcome::Starved => {
             "starved: side flow leaves and no oil enters, so that the mass-conserving film empties \
-             and carries no load; give a groove or hole, ends = \"flooded\" with ambient_pressure \
-             above cavitation_pressure, or inlet = \"max-film-line\""
+             and carries no load; give a groove or hole, or ends = \"flooded\" with \
+             ambient_pressure above cavitation_pressure; or use cavitation = \"reynolds\", which \
+             needs no supply and does not conserve oil"
         }
         Outcome::NoSolution => "no solution: the film's equations determine no pressure here",
     };

@@ -5,7 +5,8 @@ use crate::input::{Analysis, BearingCase, FilmSettings, SteadyLoad, Study, TiltC
 use crate::results::{Body, FieldSnapshot, Header, SteadyResults};
 use sommerfeld_bearing::{Coefficients, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 use sommerfeld_film::{
-    Bearing, FilmError, FilmForce, FilmSolver, Inlet, JournalState, Linearised, Outcome, Step,
+    Bearing, Extreme, FilmError, FilmForce, FilmSolver, FilmSummary, Inlet, JournalState,
+    Linearised, Outcome, Reaction, Step,
 };
 
 pub(super) fn solve_state(
@@ -79,8 +80,10 @@ pub(super) fn solve_load(
     );
     if let (Analysis::Coefficients, Body::Steady(steady)) = (study.analysis, &mut body) {
         let coefficients = Coefficients::from_tangent(&found.tangent);
-        steady.stiffness = Some(coefficients.translation_stiffness());
-        steady.damping = Some(coefficients.translation_damping());
+        let has_film = matches!(found.outcome, Outcome::Converged | Outcome::NotConverged);
+        let shown = |matrix| if has_film { matrix } else { [[f64::NAN; 2]; 2] };
+        steady.stiffness = Some(shown(coefficients.translation_stiffness()));
+        steady.damping = Some(shown(coefficients.translation_damping()));
     }
     Ok(body)
 }
@@ -94,22 +97,69 @@ fn steady(
     iterations: usize,
 ) -> Body {
     let bearing = &case.bearing;
-    let carried = load.unwrap_or_else(|| answer.reaction.force());
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
     let has_film = matches!(answer.outcome, Outcome::Converged | Outcome::NotConverged);
+    // A film that is not there has no numbers, and a journal that it should carry no place.
+    let mut state = *state;
+    if !has_film && load.is_some() {
+        state.position = [f64::NAN; 2];
+    }
+    let (reaction, summary) = if has_film {
+        (answer.reaction, film.summary())
+    } else {
+        (no_reaction(), no_summary())
+    };
+    let carried = load.unwrap_or_else(|| reaction.force());
+    let feed_flows = film.feed_flows().iter().filter(|_| has_film);
     Body::Steady(Box::new(SteadyResults {
         bearing: bearing.clone(),
-        state: *state,
+        state,
         load,
-        reaction: answer.reaction,
-        summary: film.summary(),
-        feed_flows: film.feed_flows().to_vec(),
-        sommerfeld_number: sommerfeld_number(bearing, carried, viscosity, state),
+        reaction,
+        summary,
+        feed_flows: feed_flows.copied().collect(),
+        sommerfeld_number: sommerfeld_number(bearing, carried, viscosity, &state),
         iterations,
         stiffness: None,
         damping: None,
         field: film.field().filter(|_| has_film).map(FieldSnapshot::from),
     }))
+}
+
+/// The reaction of a film that is not there: no number.
+fn no_reaction() -> Reaction {
+    let none = [f64::NAN; 2];
+    Reaction {
+        film_force: none,
+        film_moment: none,
+        friction_torque_journal: f64::NAN,
+        friction_torque_shell: f64::NAN,
+        ..Reaction::default()
+    }
+}
+
+/// The summary of a film that is not there: no number.
+fn no_summary() -> FilmSummary {
+    let nowhere = Extreme {
+        value: f64::NAN,
+        angle: f64::NAN,
+        axial: f64::NAN,
+    };
+    FilmSummary {
+        minimum_film_thickness: nowhere,
+        peak_film_pressure: nowhere,
+        side_flow: [f64::NAN; 2],
+        feed_flow: f64::NAN,
+        storage_rate: f64::NAN,
+        mass_balance_relative: f64::NAN,
+        friction_power: f64::NAN,
+        squeeze_power: f64::NAN,
+        full_film_share: f64::NAN,
+        complementarity_violation: f64::NAN,
+        cell_residual: f64::NAN,
+        reynolds_number: f64::NAN,
+        iterations: 0,
+    }
 }
 
 /// So = F psi^2/(B D eta omega) with omega the sum of both speeds.

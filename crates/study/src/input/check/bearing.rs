@@ -3,6 +3,7 @@
 use super::{Checker, as_number, as_text, value_in};
 use crate::input::error::InputError;
 use crate::input::read::{Entries, MOST_ERRORS};
+use crate::input::schema::Mode;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
 use sommerfeld_film::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
@@ -43,6 +44,7 @@ impl Checker<'_> {
             film_shear: rules.as_ref()?.film_shear,
         };
         self.check_pressures(&bearing);
+        self.check_inlet(&bearing);
         bearing.feeds = self.feeds(&bearing);
         Some(bearing)
     }
@@ -124,6 +126,38 @@ impl Checker<'_> {
         }
     }
 
+    /// The inlet on the line of the widest gap needs a grid that follows that line: it holds no
+    /// feeds, and a film on it has no history.
+    fn check_inlet(&mut self, bearing: &Bearing) {
+        const INLET: &str = "film.inlet";
+        // A closed form has refused it already, and does not use its grooves.
+        let is_field = self.film_model().is_some_and(FilmModel::is_field);
+        if bearing.inlet == Inlet::Cyclic || !is_field {
+            return;
+        }
+        if self.mode == Mode::LoadCycle && bearing.cavitation == Cavitation::MassConserving {
+            let error = self
+                .error_at(
+                    INLET,
+                    "a film that conserves mass cannot start on the line of the widest gap in a \
+                     load cycle: the line moves, and what the film holds would be lost",
+                )
+                .allowing("\"cyclic\"")
+                .hinting("give a groove or hole, or cavitation = \"reynolds\"");
+            self.errors.push(error);
+        }
+        if !self.reading.grooves.is_empty() {
+            let error = self
+                .error_at(
+                    INLET,
+                    "grooves and holes do not go with an inlet on the line of the widest gap",
+                )
+                .allowing("\"cyclic\"")
+                .hinting("take the inlet out: the grooves feed the film; or take the grooves out");
+            self.errors.push(error);
+        }
+    }
+
     /// Closures and boundaries from `[film]`. The closed forms have their own: what contradicts
     /// them is refused.
     pub(super) fn film_rules(&mut self) -> Option<FilmRules> {
@@ -159,6 +193,19 @@ impl Checker<'_> {
             None if cavitation == Cavitation::MassConserving => FilmShear::FilmFraction,
             None => FilmShear::FullWidth,
         };
+        if model.is_field()
+            && film_shear == FilmShear::FilmFraction
+            && cavitation != Cavitation::MassConserving
+        {
+            let error = self
+                .error_at(
+                    "film.film_shear",
+                    "only cavitation = \"mass-conserving\" has a film fraction to weight the shear by",
+                )
+                .allowing("\"full-width\"")
+                .hinting("take film_shear out, or use cavitation = \"mass-conserving\"");
+            self.errors.push(error);
+        }
         Some(FilmRules {
             cavitation,
             inlet,

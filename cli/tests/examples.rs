@@ -1,0 +1,258 @@
+//! Every example, run as a user runs it: exit status, summary, tables, report, and that each answers
+//! the question of its page.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+mod common;
+
+use common::{Ran, Table, number, root, run};
+use std::fs;
+
+/// Keys of every summary.
+const ALWAYS: [&str; 9] = [
+    "schema",
+    "program",
+    "version",
+    "analysis",
+    "title",
+    "status",
+    "messages",
+    "models",
+    "wall_time_s",
+];
+const STEADY: [&str; 15] = [
+    "relative_eccentricity",
+    "line_of_centres_angle_deg",
+    "attitude_angle_deg",
+    "sommerfeld_number",
+    "minimum_film_thickness_m",
+    "peak_film_pressure_pa",
+    "friction_torque_journal_n_m",
+    "friction_torque_shell_n_m",
+    "power_loss_w",
+    "side_flow_m3_s",
+    "feed_flow_m3_s",
+    "mass_balance_relative",
+    "complementarity_violation",
+    "iterations",
+    "wall_time_s",
+];
+const CYCLE: [&str; 12] = [
+    "minimum_film_thickness_m",
+    "minimum_film_thickness_angle_deg",
+    "peak_film_pressure_pa",
+    "peak_film_pressure_angle_deg",
+    "mean_power_loss_w",
+    "mean_side_flow_m3_s",
+    "mean_feed_flow_m3_s",
+    "mean_relative_eccentricity",
+    "cycle_closure",
+    "cycles",
+    "steps",
+    "film_solves",
+];
+const CYCLE_COLUMNS: &str = "crank_angle[deg],eccentricity_x[-],eccentricity_y[-],load_x[N],load_y[N],\
+                             minimum_film_thickness[m],peak_film_pressure[Pa],power_loss[W],\
+                             side_flow[m3/s]";
+
+/// Runs an example and checks what every run promises.
+fn example(file: &str) -> Ran {
+    let ran = run(&root().join("examples").join(file)).converged();
+    let summary = ran.summary();
+    for key in ALWAYS {
+        assert!(!summary[key].is_null(), "{file}: {key}");
+    }
+    let keys: &[&str] = match summary["analysis"].as_str() {
+        Some("load-cycle") => &CYCLE,
+        _ => &STEADY,
+    };
+    for key in keys {
+        number(&summary, key);
+    }
+    assert!(ran.out.contains("minimum film thickness"), "{}", ran.out);
+    for model in summary["models"].as_array().unwrap() {
+        assert!(model["reference"].is_string(), "{file}: {model}");
+    }
+    check_report(file, &ran.report());
+    let kept = fs::read_dir(&ran.results).unwrap();
+    for entry in kept {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(!name.ends_with(".part"), "{file}: {name}");
+    }
+    ran
+}
+
+/// One file below 10 MB that loads nothing from anywhere.
+fn check_report(file: &str, page: &str) {
+    assert!(page.len() < 10_000_000, "{file}: {} bytes", page.len());
+    assert!(page.contains("default-src 'none'"), "{file}");
+    // The drawing library holds addresses that it never loads here.
+    let start = page.find("* plotly.js v").unwrap();
+    let end = start + page[start..].find("</script>").unwrap();
+    let own = format!("{}{}", &page[..start], &page[end..]);
+    for loader in ["src=", "href=", "@import", "url(", "http:", "https:"] {
+        assert!(!own.contains(loader), "{file}: {loader}");
+    }
+    assert!(own.contains("<strong>Converged</strong>"), "{file}");
+}
+
+/// The table of a load cycle: its columns, a row per degree, its ends on one another.
+fn check_cycle(file: &str, ran: &Ran) -> Table {
+    let table = ran.cycle();
+    assert!(
+        table.header.join(",").starts_with(CYCLE_COLUMNS),
+        "{:?}",
+        table.header
+    );
+    assert_eq!(table.rows.len(), 721, "{file}");
+    for name in CYCLE_COLUMNS.split(',') {
+        table.numbers(name);
+    }
+    assert!(
+        table
+            .words("status")
+            .iter()
+            .all(|word| *word == "converged")
+    );
+    for name in ["eccentricity_x[-]", "eccentricity_y[-]"] {
+        let values = table.numbers(name);
+        assert!((values[0] - values[720]).abs() < 1e-4, "{file}: {name}");
+    }
+    let thickness = table.numbers("minimum_film_thickness[m]");
+    let least = thickness.iter().copied().fold(f64::INFINITY, f64::min);
+    assert_eq!(least, number(&ran.summary(), "minimum_film_thickness_m"));
+    table
+}
+
+#[test]
+fn steady_main_bearing() {
+    let ran = example("01-steady-main-bearing/study.toml");
+    let summary = ran.summary();
+    // The film answers the load, the narrowest gap lies beyond it, what enters leaves.
+    let force = summary["force_n"].as_array().unwrap();
+    let [x, y] = [0, 1].map(|axis| force[axis].as_f64().unwrap());
+    assert!(x.hypot(y - 50e3) < 1e-3 * 50e3, "force {x} {y}");
+    assert!((0.0..90.0).contains(&number(&summary, "attitude_angle_deg")));
+    assert!(number(&summary, "mass_balance_relative") < 1e-10);
+    assert_eq!(number(&summary, "complementarity_violation"), 0.0);
+    let (feed, side) = (
+        number(&summary, "feed_flow_m3_s"),
+        number(&summary, "side_flow_m3_s"),
+    );
+    assert!((feed / side - 1.0).abs() < 1e-10, "{feed} {side}");
+    assert_eq!(summary["limits"][0]["verdict"], "ok");
+}
+
+#[test]
+fn big_end_of_a_diesel() {
+    let ran = example("02-big-end-diesel/study.toml");
+    let cycle = check_cycle("02", &ran);
+    let summary = ran.summary();
+    assert!(number(&summary, "mass_balance_relative") < 1e-10);
+    assert_eq!(number(&summary, "complementarity_violation"), 0.0);
+    // Over a closed cycle the film stores nothing: the hole gives what leaves at the sides.
+    let (feed, side) = (
+        number(&summary, "mean_feed_flow_m3_s"),
+        number(&summary, "mean_side_flow_m3_s"),
+    );
+    assert!((feed / side - 1.0).abs() < 0.01, "{feed} {side}");
+    // At firing the pin is pressed towards the small end: the film is thin on the side of +x.
+    let angles = cycle.numbers("crank_angle[deg]");
+    let loads = cycle.numbers("load_x[N]");
+    let x = cycle.numbers("eccentricity_x[-]");
+    let thickness = cycle.numbers("minimum_film_thickness[m]");
+    for (index, angle) in angles.iter().enumerate() {
+        if (365.0..=375.0).contains(angle) {
+            assert!(x[index] > 0.8, "eccentricity x {} at {angle}", x[index]);
+            assert!(loads[index] > 100e3, "load {} at {angle}", loads[index]);
+            assert!(thickness[index] < 3e-6, "{} at {angle}", thickness[index]);
+        }
+    }
+    let heaviest = number(&summary, "maximum_load_angle_deg");
+    assert!((365.0..=375.0).contains(&heaviest), "{heaviest}");
+    let peak = number(&summary, "peak_film_pressure_angle_deg");
+    assert!((365.0..=375.0).contains(&peak), "{peak}");
+    // The film leaves the wall later than the load.
+    let after_firing = (300..460)
+        .min_by(|a, b| thickness[*a].total_cmp(&thickness[*b]))
+        .unwrap();
+    assert!(
+        (380.0..=400.0).contains(&angles[after_firing]),
+        "thinnest after firing at {}",
+        angles[after_firing]
+    );
+    let least = number(&summary, "minimum_film_thickness_m");
+    assert!((1e-6..1.6e-6).contains(&least), "{least}");
+}
+
+/// Film thickness against an independent orbit, `crank_deg` and `hminB_um`, within `bar`: row by row
+/// and in its minimum.
+fn check_flores(ran: &Ran, file: &str, bar: f64) {
+    let cycle = check_cycle(file, ran);
+    let angles = cycle.numbers("crank_angle[deg]");
+    let thickness = cycle.numbers("minimum_film_thickness[m]");
+    let between = |angle: f64| {
+        let angle = (angle - angles[0]).rem_euclid(720.0) + angles[0];
+        let next = angles
+            .partition_point(|a| *a < angle)
+            .clamp(1, angles.len() - 1);
+        let share = (angle - angles[next - 1]) / (angles[next] - angles[next - 1]);
+        1e6 * (thickness[next - 1] + share * (thickness[next] - thickness[next - 1]))
+    };
+    let reference = Table::read(&root().join("validation/flores-2006").join(file));
+    let expected = reference.numbers("hminB_um");
+    let mut least = f64::INFINITY;
+    for (angle, expected) in reference.numbers("crank_deg").iter().zip(expected) {
+        let got = between(*angle);
+        assert!(
+            (got / expected - 1.0).abs() < bar,
+            "{file} at {angle} deg: {got} um, expected {expected} um within {bar}"
+        );
+        least = least.min(expected);
+    }
+    let got = 1e6 * number(&ran.summary(), "minimum_film_thickness_m");
+    assert!(
+        (got / least - 1.0).abs() < bar,
+        "{file}: minimum {got} um, expected {least} um within {bar}"
+    );
+}
+
+#[test]
+fn one_axis_cycle_on_a_grid() {
+    let ran = example("03-one-axis-cycle/study.toml");
+    check_flores(&ran, "reference_finite.csv", 0.02);
+}
+
+#[test]
+fn one_axis_cycle_of_a_short_bearing() {
+    let ran = example("03-one-axis-cycle/short-bearing.toml");
+    check_flores(&ran, "reference.csv", 0.005);
+}
+
+#[test]
+fn every_example_is_run_here() {
+    let mut studies: Vec<String> = Vec::new();
+    for entry in fs::read_dir(root().join("examples")).unwrap() {
+        let directory = entry.unwrap().path();
+        if !directory.is_dir() {
+            continue;
+        }
+        for file in fs::read_dir(&directory).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_some_and(|kind| kind == "toml") {
+                let name =
+                    |part: &std::path::Path| part.file_name().unwrap().to_str().unwrap().to_owned();
+                studies.push(format!("{}/{}", name(&directory), name(&path)));
+            }
+        }
+    }
+    studies.sort();
+    assert_eq!(
+        studies,
+        [
+            "01-steady-main-bearing/study.toml",
+            "02-big-end-diesel/study.toml",
+            "03-one-axis-cycle/short-bearing.toml",
+            "03-one-axis-cycle/study.toml",
+        ]
+    );
+}

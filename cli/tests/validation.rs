@@ -1,0 +1,78 @@
+//! Validation cases that a study file can state, run as a user runs them.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+mod common;
+
+use common::{Table, number, reference, root, run, run_text};
+
+/// Short bearing after Friswell et al.: the digits that the source prints.
+#[test]
+fn short_bearing_rotor() {
+    let study = root().join("validation/short-bearing-rotor/study.toml");
+    let summary = run(&study).converged().summary();
+    for (name, key) in [("stiffness", "stiffness_n_m"), ("damping", "damping_n_s_m")] {
+        for (i, row) in ["x", "y"].iter().enumerate() {
+            for (j, column) in ["x", "y"].iter().enumerate() {
+                let quantity = format!("{name}_{row}{column}");
+                let expected = reference("short-bearing-rotor", &quantity);
+                let got = summary[key][i][j].as_f64().unwrap();
+                assert!(
+                    (got / expected - 1.0).abs() < 1e-6,
+                    "{quantity}: {got}, expected {expected}"
+                );
+            }
+        }
+    }
+    let eccentricity = reference("short-bearing-rotor", "relative_eccentricity");
+    assert!((number(&summary, "relative_eccentricity") - eccentricity).abs() < 1e-6);
+    let attitude = reference("short-bearing-rotor", "attitude_angle");
+    assert!((number(&summary, "attitude_angle_deg") - attitude).abs() < 1e-3);
+}
+
+/// The study of a row of the tilted table.
+fn dimensionless(row: &[String]) -> String {
+    let right_side = match row[7].as_str() {
+        "D" => "wedge = 1.0\nsqueeze = 0.0",
+        "V" => "wedge = 0.0\nsqueeze = 1.0",
+        _ => "wedge = 0.0\nsqueeze = -1.0",
+    };
+    let float = |text: &str| format!("{:?}", text.parse::<f64>().unwrap());
+    format!(
+        "schema = 1\nanalysis = \"film\"\n[film]\ncavitation = \"reynolds\"\ninlet = \"cyclic\"\n\
+         [operation]\ndimensionless = true\nd_over_b = {}\nrelative_eccentricity = {}\n\
+         tilt_gamma = {}\ntilt_delta = {}\n{right_side}\n",
+        float(&row[0]),
+        float(&row[1]),
+        float(&row[2]),
+        float(&row[5])
+    )
+}
+
+/// The default grid through the command: every eighth open row (the tests of the film take all),
+/// within 0.5 % of the force vector and of the moment scale where H_min > 0.1; closed rows refused.
+#[test]
+fn tilted_table() {
+    let table = Table::read(&root().join("validation/tilted-table/reference.csv"));
+    let (mut open, mut closed) = (0, 0);
+    for row in table.rows.iter().filter(|row| row[8] == "closed") {
+        let ran = run_text(&dimensionless(row), "");
+        assert_eq!(ran.code, Some(2), "{row:?}\n{}{}", ran.out, ran.err);
+        assert!(ran.err.contains("the gap closes at phi"), "{}", ran.err);
+        closed += 1;
+    }
+    let is_due = |row: &&Vec<String>| row[8] == "ok" && row[6].parse::<f64>().unwrap() > 0.1;
+    for row in table.rows.iter().filter(is_due).step_by(8) {
+        let summary = run_text(&dimensionless(row), "").converged().summary();
+        let got =
+            ["p_cos", "p_sin", "p_z_cos", "p_z_sin"].map(|key| number(&summary["integrals"], key));
+        let expected = [9, 10, 11, 12].map(|column| row[column].parse::<f64>().unwrap());
+        let force = expected[0].hypot(expected[1]);
+        // Moments that vanish by symmetry are held against a tenth of the force.
+        let moment = expected[2].hypot(expected[3]).max(0.1 * force);
+        let off = |k: usize| (got[k] - expected[k]).hypot(got[k + 1] - expected[k + 1]);
+        assert!(off(0) < 0.005 * force, "{row:?}: {got:?}");
+        assert!(off(2) < 0.005 * moment, "{row:?}: {got:?}");
+        open += 1;
+    }
+    assert!(open >= 8 && closed >= 3, "{open} open, {closed} closed");
+}
