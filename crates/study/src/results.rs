@@ -439,7 +439,9 @@ pub fn degrees(angle: f64) -> f64 {
 /// The place of an extreme in reading units: angle in degrees in [0, 360) and axial position, mm.
 #[must_use]
 pub fn place(extreme: &Extreme) -> (f64, f64) {
-    (degrees_around(extreme.angle), extreme.axial * 1e3)
+    // A mid-plane found by arithmetic reads 0, not 1e-15.
+    let axial = (extreme.axial * 1e12).round() * 1e-9;
+    (degrees_around(extreme.angle), axial)
 }
 
 #[cfg(test)]

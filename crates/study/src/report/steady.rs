@@ -177,6 +177,17 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
     let summary = &steady.summary;
     let reaction = &steady.reaction;
     let pair = |unit: Unit, [x, y]: [f64; 2]| format!("{}, {}", unit.number(x), unit.show(y));
+    // What is round-off against the load reads 0.
+    let force = magnitude(steady.load.unwrap_or_else(|| reaction.force()));
+    let heard = |vector: [f64; 2], scale: f64| {
+        vector.map(|value| {
+            if value.abs() < 1e-9 * scale {
+                0.0
+            } else {
+                value
+            }
+        })
+    };
     let row = |label: &str, value: String, key: &str, unit: Unit, limited: Option<Quantity>| {
         let [limit, verdict] = limit_cells(header, limited, unit);
         let error = error(header, key, unit).map_or_else(String::new, |error| format!("± {error}"));
@@ -204,12 +215,15 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
     rows.extend([
         plain(
             "Force on the journal x, y",
-            pair(units.force, reaction.force()),
+            pair(units.force, heard(reaction.force(), force)),
             "force_n",
         ),
         plain(
             "Moment on the journal x, y",
-            pair(units.torque, reaction.moment()),
+            pair(
+                units.torque,
+                heard(reaction.moment(), force * steady.bearing.width),
+            ),
             "moment_n_m",
         ),
         in_unit(
