@@ -57,6 +57,9 @@ film/mass-conserving-warm|film, 2 degrees on, `mass-conserving`|4
 film/reynolds-cold|film from cold, `reynolds`|3
 film/reynolds-warm|film, 2 degrees on, `reynolds`|1
 film/gumbel-cold|film from cold, `gumbel`|
+film/mass-conserving-whole-cold|whole bearing from cold, `mass-conserving`|
+film/reynolds-whole-cold|whole bearing from cold, `reynolds`|
+film/gumbel-whole-cold|whole bearing from cold, `gumbel`|
 film/short-bearing-update|short bearing, one update|
 equilibrium/example-01|equilibrium, example 01|
 cycle/example-02|load cycle, example 02|4000

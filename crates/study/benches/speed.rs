@@ -114,8 +114,10 @@ fn films(criterion: &mut Criterion) {
         ..JournalState::default()
     };
     let [start, end] = warm_step(&at_rest);
+    let duration = STEP_DEG.to_radians() / speed;
     let implicit = Step::Implicit {
-        duration: STEP_DEG.to_radians() / speed,
+        duration,
+        after: 0.5 * duration,
     };
     let mut group = criterion.benchmark_group("film");
     for (name, cavitation, step) in [
@@ -131,7 +133,20 @@ fn films(criterion: &mut Criterion) {
             },
             ..case.bearing.clone()
         };
-        let new = || FilmSolver::new(&bearing, &case.lubricant, GRID).expect("a film");
+        // Studies with an aligned journal solve one half of this mirrored bearing.
+        let new = || FilmSolver::aligned(&bearing, &case.lubricant, GRID).expect("a film");
+        let whole = || FilmSolver::new(&bearing, &case.lubricant, GRID).expect("a film");
+        group.throughput(updates(settle(&mut whole(), &at_rest, Step::Steady, case)));
+        group.bench_function(format!("{name}-whole-cold"), |bencher| {
+            bencher.iter_batched(
+                whole,
+                |mut film| {
+                    settle(&mut film, &at_rest, Step::Steady, case);
+                    film
+                },
+                BatchSize::PerIteration,
+            );
+        });
 
         group.throughput(updates(settle(&mut new(), &at_rest, Step::Steady, case)));
         group.bench_function(format!("{name}-cold"), |bencher| {
@@ -234,7 +249,8 @@ fn equilibrium(criterion: &mut Criterion) {
         start: None,
         settings: Default::default(),
     };
-    let new = || FilmSolver::new(&case.bearing, &case.lubricant, study.film.grid).expect("a film");
+    let cells = study.film.grid;
+    let new = || FilmSolver::aligned(&case.bearing, &case.lubricant, cells).expect("a film");
     let find = |mut film: FilmSolver| {
         let found = find_equilibrium(&mut film, &case.bearing, &request, &conditions(case))
             .expect("an equilibrium");
@@ -259,7 +275,7 @@ fn load_cycles(criterion: &mut Criterion) {
     let (duty_of_field, case_of_field) = (duty(&field), case(&field));
     let run = || {
         let (bearing, oil) = (&case_of_field.bearing, &case_of_field.lubricant);
-        let mut film = FilmSolver::new(bearing, oil, GRID).expect("a film");
+        let mut film = FilmSolver::aligned(bearing, oil, GRID).expect("a film");
         one_cycle(&mut film, case_of_field, duty_of_field)
     };
     let orbit = run();
