@@ -103,6 +103,14 @@ impl Motion {
         }
     }
 
+    /// Where the step that a position belongs to ends.
+    fn end(&self, position: Coordinates) -> Coordinates {
+        match self.step() {
+            Step::Steady => position,
+            Step::Implicit { after, .. } => add(position, after, self.rate(position)),
+        }
+    }
+
     fn step(&self) -> Step {
         match *self {
             Self::AtRest => Step::Steady,
@@ -269,6 +277,13 @@ impl Balance {
         Some([x, y, end_x / self.arm, end_y / self.arm])
     }
 
+    /// Smallest gap at a position and at the end of its step.
+    fn smallest_gap(&self, film: &dyn FilmForce, position: Coordinates) -> f64 {
+        let state = self.state(position);
+        let end = with_motion(&state, self.motion.end(position), [0.0; 4]);
+        film.minimum_gap(&state).min(film.minimum_gap(&end))
+    }
+
     /// Largest share (1, 1/2, 1/4, ...) of a displacement that keeps the smallest gap above
     /// `(1 - gap_loss)` of what it is at `from`.
     pub(crate) fn allowed_share(
@@ -278,7 +293,7 @@ impl Balance {
         displacement: Coordinates,
         gap_loss: f64,
     ) -> f64 {
-        let present = film.minimum_gap(&self.state(from));
+        let present = self.smallest_gap(film, from);
         if present <= 0.0 {
             // Only a film with soft surfaces gets here: overlap of the rigid shapes is its business.
             return 1.0;
@@ -286,7 +301,7 @@ impl Balance {
         let floor = (1.0 - gap_loss) * present;
         let mut share = 1.0;
         for _ in 0..60 {
-            let gap = film.minimum_gap(&self.state(add(from, share, displacement)));
+            let gap = self.smallest_gap(film, add(from, share, displacement));
             if gap >= floor {
                 return share;
             }

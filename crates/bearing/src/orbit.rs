@@ -30,12 +30,12 @@ pub struct OrbitSettings {
     /// Largest error of one time step over the smallest gap, films without history (second order).
     /// Default 1e-4.
     pub error_tolerance: f64,
-    /// The same for films with history (first order). Default 2e-2.
+    /// The same for films with history. Default 5e-3.
     pub history_error_tolerance: f64,
-    /// For the sake of that tolerance the crank step is halved at most this often. Cells of a film on
-    /// a grid that fill or rupture make the rate of a light journal jump; still shorter steps would
-    /// follow single cells and not the motion. Default 2.
-    pub history_halvings: u32,
+    /// For the sake of that tolerance the crank step is divided by three at most this often. Cells of a
+    /// film on a grid that fill or rupture make the rate of a light journal jump; still shorter steps
+    /// would follow single cells and not the motion. Default 1.
+    pub history_divisions: u32,
     /// Newton stops before a step smaller than this, over the smallest gap. Default 1e-5.
     pub newton_tolerance: f64,
     /// The same for films with history, whose time steps are coarser. Default 1e-4.
@@ -44,8 +44,8 @@ pub struct OrbitSettings {
     pub iteration_limit: usize,
     /// Largest share of the smallest gap that one Newton step may take. Default 0.7.
     pub largest_gap_loss: f64,
-    /// The output crank step is halved at most this often where Newton fails. Default 10.
-    pub largest_halvings: u32,
+    /// The output crank step is divided by three at most this often where Newton fails. Default 6.
+    pub largest_divisions: u32,
     /// The orbit is closed when two cycles differ by less than this share of the radial clearance.
     /// Default 1e-4.
     pub closure_tolerance: f64,
@@ -60,13 +60,13 @@ impl Default for OrbitSettings {
         Self {
             crank_step: std::f64::consts::PI / 180.0,
             error_tolerance: 1e-4,
-            history_error_tolerance: 2e-2,
-            history_halvings: 2,
+            history_error_tolerance: 5e-3,
+            history_divisions: 1,
             newton_tolerance: 1e-5,
             history_newton_tolerance: 1e-4,
             iteration_limit: 20,
             largest_gap_loss: 0.7,
-            largest_halvings: 10,
+            largest_divisions: 6,
             closure_tolerance: 1e-4,
             cycle_limit: 8,
             start: OrbitStart::Equilibrium,
@@ -99,8 +99,8 @@ pub struct Progress {
 /// to stop. Called for the start once, then at the end of each output crank step.
 pub type Observer<'a> = dyn FnMut(&CyclePoint, &dyn FilmForce, Progress) -> ControlFlow<()> + 'a;
 
-/// From this level of halving on, a substep that fails is tried once more with patience.
-const PATIENT_LEVEL: u32 = 2;
+/// From this level of division on, a substep that fails is tried once more with patience.
+const PATIENT_LEVEL: u32 = 1;
 
 /// Limits for a journal that crosses an emptied gap: nothing holds it until it meets oil again, so
 /// that a shorter time step does not help, but many small Newton steps do.
@@ -179,6 +179,8 @@ struct Run<'a> {
     points: Vec<CyclePoint>,
     steps: usize,
     failed_points: usize,
+    /// A substep since the last point did not converge.
+    failed_since: bool,
 }
 
 impl<'a> Run<'a> {
@@ -225,18 +227,20 @@ impl<'a> Run<'a> {
                 position: [0.0; 4],
                 rate: [0.0; 4],
                 slope: [0.0; 4],
+                duration: 0.0,
                 rate_is_known: false,
             },
             film,
             bearing,
             settings,
             stepper,
-            substeps: Substeps::new(settings.largest_halvings.min(40)),
+            substeps: Substeps::new(settings.largest_divisions.min(20)),
             crank_step: cycle.period / count,
             count: count as usize,
             points: Vec::new(),
             steps: 0,
             failed_points: 0,
+            failed_since: false,
         })
     }
 
@@ -266,6 +270,10 @@ impl<'a> Run<'a> {
         let stopped = self.publish(&state, &linearised, linearised.outcome, 1, observer);
         self.film.reject_step();
         self.film.restore(&history);
+        if self.stepper.has_history {
+            // Points are the middles of the output crank steps: the first begins half a step on.
+            self.moving.crank_angle += 0.5 * self.crank_step;
+        }
         Ok(stopped)
     }
 
@@ -317,23 +325,12 @@ impl<'a> Run<'a> {
     ) -> Result<Option<Outcome>, FilmError> {
         let start = self.moving.crank_angle;
         for step in 1..=self.count {
-            let from = self.moving.crank_angle;
-            let (state, linearised, outcome) = self.output_step(from)?;
+            let ended = self.output_step(self.moving.crank_angle, number, observer)?;
             // Sums of many substeps must not drift off the output crank angles.
             self.moving.crank_angle = start + step as f64 * self.crank_step;
-            if matches!(outcome, Outcome::Starved | Outcome::NoSolution) {
-                return Ok(Some(outcome));
+            if ended.is_some() {
+                return Ok(ended);
             }
-            let stopped = self.publish(&state, &linearised, outcome, number, observer);
-            self.film.accept_step();
-            if stopped.is_some() {
-                return Ok(stopped);
-            }
-            self.failed_points = if outcome == Outcome::Converged {
-                0
-            } else {
-                self.failed_points + 1
-            };
             if self.failed_points > LARGEST_FAILED_POINTS {
                 return Ok(Some(Outcome::NotConverged));
             }
@@ -341,19 +338,24 @@ impl<'a> Run<'a> {
         Ok(None)
     }
 
-    /// Substeps through one output crank step. The last accepted one is left to the caller to accept
-    /// in the film, after the film has been looked at.
-    fn output_step(&mut self, from: f64) -> Result<(JournalState, Linearised, Outcome), FilmError> {
+    /// Substeps through one output crank step, with its point published on the way: at the middle for
+    /// films with history, whose state belongs there, else at the end. An outcome if the run ends.
+    fn output_step(
+        &mut self,
+        from: f64,
+        number: usize,
+        observer: &mut Observer<'_>,
+    ) -> Result<Option<Outcome>, FilmError> {
         let settings = self.settings;
-        // The error of a step of order p falls by 2^(p+1) with its length: room for twice the length.
-        let (tolerance, finest, room) = if self.stepper.has_history {
-            let tolerance = settings.history_error_tolerance;
-            (tolerance, settings.history_halvings, 0.2)
+        let (tolerance, finest) = if self.stepper.has_history {
+            (settings.history_error_tolerance, settings.history_divisions)
         } else {
-            (settings.error_tolerance, settings.largest_halvings, 0.1)
+            (settings.error_tolerance, settings.largest_divisions)
         };
+        // The error of a step of second order falls by 27 with a third of its length.
+        let room = 0.03;
         let mut failures = 0;
-        let mut outcome = Outcome::Converged;
+        let mut is_published = false;
         self.substeps.begin();
         loop {
             self.moving.crank_angle = from + self.substeps.position() * self.crank_step;
@@ -369,18 +371,23 @@ impl<'a> Run<'a> {
             }
             let solved = trial.outcome == Outcome::Converged;
             let accurate = trial.error <= tolerance || self.substeps.level() >= finest;
-            if !(solved && accurate) && self.substeps.halve() {
+            if !(solved && accurate) && self.substeps.divide() {
                 self.film.reject_step();
                 continue;
             }
             if matches!(trial.outcome, Outcome::Starved | Outcome::NoSolution) {
                 self.film.reject_step();
-                return Ok((trial.state, trial.linearised, trial.outcome));
+                return Ok(Some(trial.outcome));
             }
+            let shows = if self.stepper.has_history {
+                self.substeps.is_central()
+            } else {
+                self.substeps.is_last()
+            };
             let trial = if solved {
                 trial
             } else {
-                outcome = Outcome::NotConverged;
+                self.failed_since = true;
                 failures += 1;
                 self.passed_over(&trial, failures)
             };
@@ -388,11 +395,38 @@ impl<'a> Run<'a> {
             self.steps += 1;
             self.substeps
                 .advance(solved && trial.error < room * tolerance);
-            if self.substeps.at_end() {
-                return Ok((trial.state, trial.linearised, outcome));
+            let at_end = self.substeps.at_end();
+            if shows || (at_end && !is_published) {
+                is_published = true;
+                let stopped = self.publish_step(&trial, number, observer);
+                if stopped.is_some() {
+                    self.film.accept_step();
+                    return Ok(stopped);
+                }
             }
             self.film.accept_step();
+            if at_end {
+                return Ok(None);
+            }
         }
+    }
+
+    /// Publishes the point of an output crank step.
+    fn publish_step(
+        &mut self,
+        trial: &Trial,
+        number: usize,
+        observer: &mut Observer<'_>,
+    ) -> Option<Outcome> {
+        let outcome = if self.failed_since {
+            self.failed_points += 1;
+            Outcome::NotConverged
+        } else {
+            self.failed_points = 0;
+            Outcome::Converged
+        };
+        self.failed_since = false;
+        self.publish(&trial.state, &trial.linearised, outcome, number, observer)
     }
 
     /// A substep that does not converge even at the finest level: its best iterate, then at rest;
@@ -422,10 +456,11 @@ impl<'a> Run<'a> {
         number: usize,
         observer: &mut Observer<'_>,
     ) -> Option<Outcome> {
-        let load = self.stepper.table.at(self.moving.crank_angle);
         let index = self.points.len();
+        let crank_angle = self.stepper.table.first_angle() + index as f64 * self.crank_step;
+        let load = self.stepper.table.at(crank_angle);
         let point = CyclePoint {
-            crank_angle: self.stepper.table.first_angle() + index as f64 * self.crank_step,
+            crank_angle,
             load: load.load,
             moment: load.moment,
             state: *state,

@@ -104,11 +104,15 @@ pub struct Capabilities {
 pub enum Step {
     /// Nothing is stored: squeeze from the given velocities, film content constant in time.
     Steady,
-    /// Implicit (backward Euler) step of the film content from the accepted history. The state's
-    /// position is that at the END of the step and its velocity (position - old position)/duration.
+    /// Implicit step of the film content from the accepted history, with the gap moving at the
+    /// state's velocity throughout. The state is the one `after` before the END of the step: 0 is
+    /// backward Euler; half the duration, the state in the middle, is of second order for pressure
+    /// and journal while the film fraction keeps its bounds.
     Implicit {
         /// Length of the step, s.
         duration: f64,
+        /// Time from the state to the end of the step, s; from 0 to the duration.
+        after: f64,
     },
 }
 
@@ -202,8 +206,9 @@ impl Reaction {
 /// (m), tilt x, tilt y (rad), or their rates.
 ///
 /// In an implicit step of a film with history the squeeze is in the change of position, so
-/// `by_position` holds it and `by_rate` is zero; the total derivative with respect to the position
-/// at the end of the step is `by_position + by_rate / duration` for every model.
+/// `by_position` holds it and `by_rate` only what the motion after the state adds; with the velocity
+/// `(position - old position) / (duration - after)` the total derivative with respect to the
+/// position is `by_position + by_rate / (duration - after)` for every model.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Tangent {
     /// With respect to position and tilt.

@@ -268,10 +268,19 @@ impl SolvedFilm<'_> {
             ),
             _ => (0.0, 0.0),
         };
-        let along = if j == 0 || j + 1 == m {
+        let z = &self.grid.axial;
+        let along = if j + 1 == m && self.operator.ends_at_mid_plane {
+            let before = if j == 0 {
+                top
+            } else {
+                self.pressure[highest - 1]
+            };
+            let width = self.grid.axial_widths[j];
+            let before_width = if j == 0 { width } else { z[j] - z[j - 1] };
+            parabola_peak([before, top, top], [before_width, width])
+        } else if j == 0 || j + 1 == m {
             (0.0, 0.0)
         } else {
-            let z = &self.grid.axial;
             parabola_peak(
                 [self.pressure[highest - 1], top, self.pressure[highest + 1]],
                 [z[j] - z[j - 1], z[j + 1] - z[j]],
@@ -302,8 +311,11 @@ impl SolvedFilm<'_> {
         self.sensitivity_axial(adjoints, &mut by_position);
         match storage {
             Storage::Rate => self.sensitivity_storage(adjoints, 1.0, &mut by_rate),
-            Storage::Step { duration, .. } => {
+            Storage::Step {
+                duration, after, ..
+            } => {
                 self.sensitivity_storage(adjoints, 1.0 / duration, &mut by_position);
+                self.sensitivity_storage(adjoints, after / duration, &mut by_rate);
             }
         }
         Tangent {
@@ -399,7 +411,8 @@ impl SolvedFilm<'_> {
         outward * conductance * (self.pressure[inside] - outside)
     }
 
-    /// `per_time`: 1 for rates of change, 1/duration for steps.
+    /// `per_time`: 1 for rates of change; 1/duration for the gap and after/duration for its rate in
+    /// steps.
     fn sensitivity_storage(&self, adjoints: &[Lanes], per_time: f64, by: &mut Sensitivity) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {

@@ -49,6 +49,8 @@ pub enum Storage<'a> {
     Step {
         /// Duration, s.
         duration: f64,
+        /// Time from the gap given to the end of the step, s.
+        after: f64,
         /// Old content.
         old: &'a [f64],
     },
@@ -76,6 +78,8 @@ pub struct Operator {
     pub around: Around,
     /// Boundary at the ends.
     pub axial: Axial,
+    /// The last face along the axis is no end but the mid-plane of a mirrored film.
+    pub ends_at_mid_plane: bool,
     /// Conductance of faces around, `(i, j)` at `i * n_axial + j`, `i` up to and including `n_around`.
     pub conductance_around: Vec<f64>,
     /// Conductance of faces along the axis, `(i, j)` at `i * (n_axial + 1) + j`.
@@ -104,6 +108,7 @@ impl Operator {
             n_axial: m,
             around,
             axial,
+            ends_at_mid_plane: false,
             conductance_around: vec![0.0; (n + 1) * m],
             conductance_axial: vec![0.0; n * (m + 1)],
             transport: vec![0.0; (n + 1) * m],
@@ -136,8 +141,12 @@ impl Operator {
         for i in 0..n {
             for j in 0..=m {
                 let face = i * (m + 1) + j;
-                let at_end = j == 0 || j == m;
-                self.conductance_axial[face] = if at_end && self.axial == Axial::Closed {
+                let is_closed = match j {
+                    0 => self.axial == Axial::Closed,
+                    j if j == m => self.axial == Axial::Closed || self.ends_at_mid_plane,
+                    _ => false,
+                };
+                self.conductance_axial[face] = if is_closed {
                     0.0
                 } else {
                     gap.axial[face].powi(3) * grid.around_widths[i] / axial_distance(grid, j)
@@ -149,8 +158,13 @@ impl Operator {
                 let least = -self.outflow(k) * grid.around_widths[i];
                 (self.storage[k], self.stored[k]) = match storage {
                     Storage::Rate => (gap.rate[k] * area, 0.0),
-                    Storage::Step { duration, old } => {
-                        (gap.mean[k] * area / duration, old[k] * area / duration)
+                    Storage::Step {
+                        duration,
+                        after,
+                        old,
+                    } => {
+                        let end = gap.mean[k] + after * gap.rate[k];
+                        (end * area / duration, old[k] * area / duration)
                     }
                 };
                 self.ruptured_storage[k] = self.storage[k].max(least);

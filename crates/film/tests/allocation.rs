@@ -78,7 +78,13 @@ fn an_update_allocates_nothing_after_the_first() {
     ] {
         for (inlet, step) in [
             (Inlet::Cyclic, Step::Steady),
-            (Inlet::Cyclic, Step::Implicit { duration }),
+            (
+                Inlet::Cyclic,
+                Step::Implicit {
+                    duration,
+                    after: 0.0,
+                },
+            ),
             (Inlet::MaxFilmLine { pressure: 1e5 }, Step::Steady),
         ] {
             let bearing = Bearing {

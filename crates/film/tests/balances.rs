@@ -331,7 +331,10 @@ fn implicit_steps_balance() {
             let kind = if step == 0 {
                 Step::Steady
             } else {
-                Step::Implicit { duration }
+                Step::Implicit {
+                    duration,
+                    after: 0.0,
+                }
             };
             let answer = film.react(&state, kind, &conditions()).unwrap();
             assert!(answer.settled, "{name} step {step}");

@@ -82,9 +82,10 @@ fn path_of(case: &Case) -> String {
     )
 }
 
-/// The reference in the second line of a table.
+/// The reference in the head of a table.
 fn committed_reference(text: &str) -> [f64; 2] {
-    let line = text.lines().nth(1).unwrap();
+    let is_reference = |line: &&str| line.starts_with("# reference:");
+    let line = text.lines().find(is_reference).unwrap();
     let mut numbers = line.split_whitespace().filter_map(|w| w.parse().ok());
     [numbers.next().unwrap(), numbers.next().unwrap()]
 }

@@ -300,6 +300,7 @@ fn oscillating_squeeze(conserves_mass: bool, n: usize, duration: f64) -> Squeeze
         let gap = Gap::from_profile(&film.grid, |_, _| thickness(t), |_| rate);
         let storage = if conserves_mass {
             Storage::Step {
+                after: 0.0,
                 duration,
                 old: &content,
             }

@@ -83,7 +83,14 @@ fn turning(nu: f64, cells: usize) -> (Answer, Answer) {
             journal_angle: SPEED * duration * step as f64,
             ..JournalState::default()
         };
-        let solved = film.react(&state, Step::Implicit { duration }, &conditions());
+        let solved = film.react(
+            &state,
+            Step::Implicit {
+                duration,
+                after: 0.0,
+            },
+            &conditions(),
+        );
         let solved = solved.unwrap();
         assert!(solved.settled, "nu {nu} step {step}");
         film.accept_step();

@@ -1,0 +1,324 @@
+//! Everything of a film that changes from call to call: set, fields, history and scratch, made once
+//! and reused as a warm start. [`crate::solver`] says in which order its stages run.
+
+use crate::bearing::{Bearing, Ends, Inlet};
+use crate::cavitation::{CavitationModel, FilmSet};
+use crate::force::{Conditions, FeedFlow, Reaction, Step};
+use crate::gap::Gap;
+use crate::grid::Grid;
+use crate::integrals::Units;
+use crate::journal_state::JournalState;
+use crate::linear::{Lanes, RingFactor, RingMatrix};
+use crate::mirror::Extent;
+use crate::reynolds::{Around, Axial, Cell, Operator};
+use sommerfeld_oil::Lubricant;
+
+/// Flow below this share of the largest is round-off of the direct solution.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Everything that changes from call to call.
+pub(crate) struct FilmState {
+    pub(crate) gap: Gap,
+    pub(crate) operator: Operator,
+    pub(crate) set: FilmSet,
+    pub(crate) matrix: RingMatrix,
+    pub(crate) factor: RingFactor,
+    pub(crate) fed_by: Vec<Option<usize>>,
+    pub(crate) rhs: Vec<f64>,
+    pub(crate) solution: Vec<f64>,
+    pub(crate) correction: Vec<f64>,
+    pub(crate) pressure: Vec<f64>,
+    pub(crate) film_fraction: Vec<f64>,
+    pub(crate) excess: Vec<f64>,
+    /// Largest flow of the last balance, 1/s.
+    pub(crate) flow_scale: f64,
+    /// Adjoints of force and moment, per cell.
+    pub(crate) adjoints: Vec<Lanes>,
+    /// Content theta H at the last accepted step; empty before the first.
+    pub(crate) content: Vec<f64>,
+    /// Content that an implicit step starts from.
+    pub(crate) old_content: Vec<f64>,
+    /// Time from the last state to the end of its step, s.
+    pub(crate) after: f64,
+    pub(crate) is_warm: bool,
+    pub(crate) iterations: usize,
+    pub(crate) state: JournalState,
+    pub(crate) reaction: Reaction,
+    pub(crate) units: Units,
+    pub(crate) density: f64,
+    pub(crate) feed_flows: Vec<FeedFlow>,
+    pub(crate) fields: Fields,
+}
+
+/// The fields in SI, as the caller sees them.
+pub(crate) struct Fields {
+    pub(crate) angles: Vec<f64>,
+    pub(crate) axial: Vec<f64>,
+    pub(crate) pressure: Vec<f64>,
+    pub(crate) film_fraction: Vec<f64>,
+    pub(crate) film_thickness: Vec<f64>,
+}
+
+impl FilmState {
+    pub(crate) fn new(
+        bearing: &Bearing,
+        lubricant: &Lubricant,
+        grid: &Grid,
+        extent: Extent,
+    ) -> Self {
+        let (n, m) = (grid.n_around(), grid.n_axial());
+        let solved: Vec<f64> = grid.axial.iter().map(|z| z * bearing.radius()).collect();
+        let axial = extent.unfold_axial(&solved);
+        let all = vec![0.0; n * axial.len()];
+        let matrix = RingMatrix::new(n, m, bearing.inlet == Inlet::Cyclic);
+        let zero = vec![0.0; n * m];
+        let around = Around::Periodic;
+        Self {
+            gap: Gap::for_grid(grid),
+            operator: Operator {
+                ends_at_mid_plane: extent == Extent::Half,
+                ..Operator::for_grid(grid, around, Axial::Air(0.0))
+            },
+            set: FilmSet::full(n, m),
+            factor: RingFactor::new(&matrix),
+            matrix,
+            fed_by: vec![None; n * m],
+            rhs: zero.clone(),
+            solution: zero.clone(),
+            correction: zero.clone(),
+            pressure: zero.clone(),
+            film_fraction: zero.clone(),
+            excess: zero.clone(),
+            flow_scale: 0.0,
+            adjoints: vec![[0.0; 4]; n * m],
+            content: Vec::with_capacity(n * m),
+            old_content: zero.clone(),
+            after: 0.0,
+            is_warm: false,
+            iterations: 0,
+            state: JournalState::default(),
+            reaction: Reaction::default(),
+            units: Units::of(bearing, lubricant.viscosity(373.15, 0.0).value),
+            density: 0.0,
+            feed_flows: vec![FeedFlow::default(); bearing.feeds.len()],
+            fields: Fields {
+                angles: grid.around.clone(),
+                axial,
+                pressure: all.clone(),
+                film_fraction: all.clone(),
+                film_thickness: all,
+            },
+        }
+    }
+
+    /// Pressure of the film unit for a gauge pressure in Pa.
+    fn relative_pressure(&self, bearing: &Bearing, pressure: f64) -> f64 {
+        (pressure - bearing.cavitation_pressure) / self.units.pressure
+    }
+
+    pub(crate) fn place_feeds(&mut self, bearing: &Bearing, conditions: &Conditions<'_>) {
+        let given = conditions.feed_pressures;
+        for (index, feed) in bearing.feeds.iter().enumerate() {
+            self.feed_flows[index].pressure = given
+                .and_then(|p| p.get(index))
+                .map_or(feed.pressure, |p| *p);
+        }
+        for k in 0..self.fed_by.len() {
+            match (self.fed_by[k], self.set.cells[k]) {
+                (Some(feed), _) => {
+                    self.set.cells[k] = Cell::Fed;
+                    self.set.fed_pressure[k] =
+                        self.relative_pressure(bearing, self.feed_flows[feed].pressure);
+                }
+                // The feed moved on and left a full film.
+                (None, Cell::Fed) => self.set.cells[k] = Cell::Full,
+                _ => {}
+            }
+        }
+    }
+
+    pub(crate) fn place_boundaries(&mut self, bearing: &Bearing) {
+        let ambient = self.relative_pressure(bearing, bearing.ambient_pressure);
+        self.operator.axial = match bearing.ends {
+            Ends::Air => Axial::Air(ambient),
+            Ends::Flooded => Axial::Bath(ambient),
+        };
+        self.operator.around = match bearing.inlet {
+            Inlet::Cyclic => Around::Periodic,
+            Inlet::MaxFilmLine { pressure } => {
+                Around::Pressures([self.relative_pressure(bearing, pressure); 2])
+            }
+        };
+    }
+
+    /// Content at the start of an implicit step: the accepted one, or, at the very first step, the
+    /// full film of the position that the step came from.
+    pub(crate) fn take_old_content(&mut self, step: Step) {
+        let Step::Implicit { duration, after } = step else {
+            self.after = 0.0;
+            return;
+        };
+        self.after = after;
+        if self.content.len() == self.old_content.len() {
+            self.old_content.copy_from_slice(&self.content);
+        } else {
+            let gaps = self.gap.mean.iter().zip(&self.gap.rate);
+            for (old, (mean, rate)) in self.old_content.iter_mut().zip(gaps) {
+                *old = mean - rate * (duration - after);
+            }
+        }
+    }
+
+    /// Stage 4: solves the equations of the present set. `false` where they determine no film.
+    pub(crate) fn solve(&mut self, closure: &dyn CavitationModel) -> bool {
+        closure.admit_set(&self.operator, &mut self.set);
+        closure.assemble(&self.operator, &self.set, &mut self.matrix, &mut self.rhs);
+        if !self.factor.factor(&self.matrix) {
+            return false;
+        }
+        self.solution.copy_from_slice(&self.rhs);
+        self.factor.solve(&mut self.solution);
+        self.refine();
+        self.snap_round_off();
+        closure.fields(
+            &self.set,
+            &self.solution,
+            &mut self.pressure,
+            &mut self.film_fraction,
+        );
+        self.flow_scale =
+            self.operator
+                .balance(&self.pressure, &self.film_fraction, &mut self.excess);
+        self.solution.iter().all(|x| x.is_finite())
+    }
+
+    /// Iterative refinement where elimination left more than round-off of the flows.
+    fn refine(&mut self) {
+        const LARGEST_RESIDUAL: f64 = 1e-12;
+        const STEPS: usize = 2;
+        let bound = LARGEST_RESIDUAL * self.flow_unit();
+        for _ in 0..STEPS {
+            let residual = self
+                .matrix
+                .residual(&self.solution, &self.rhs, &mut self.correction);
+            if residual <= bound {
+                return;
+            }
+            self.factor.solve(&mut self.correction);
+            for (x, dx) in self.solution.iter_mut().zip(&self.correction) {
+                *x += dx;
+            }
+        }
+    }
+
+    /// Largest flow that drives the film: dragged along, stored or released, 1/s.
+    fn flow_unit(&self) -> f64 {
+        let operator = &self.operator;
+        let dragged = operator
+            .transport
+            .iter()
+            .fold(0.0_f64, |a, b| a.max(b.abs()));
+        let stored = operator.storage.iter().zip(&operator.stored);
+        stored.fold(dragged, |a, (new, old)| a.max((new - old).abs()))
+    }
+
+    /// Puts values that round-off alone keeps beyond their bound onto the bound, so that it decides
+    /// no cell: both conditions hold with equality there.
+    fn snap_round_off(&mut self) {
+        let scale = ROUND_OFF * self.flow_unit();
+        for (k, x) in self.solution.iter_mut().enumerate() {
+            let weight = self.matrix.centre[k];
+            match self.set.cells[k] {
+                Cell::Full if *x < 0.0 && -*x * weight <= scale => *x = 0.0,
+                Cell::Ruptured if *x > 1.0 && (*x - 1.0) * weight <= scale => *x = 1.0,
+                Cell::Ruptured if *x < 0.0 && -*x * weight <= scale => *x = 0.0,
+                _ => {}
+            }
+        }
+    }
+
+    pub(crate) fn account_feeds(&mut self, extent: Extent) {
+        for feed in &mut self.feed_flows {
+            feed.flow = 0.0;
+        }
+        for (k, feed) in self.fed_by.iter().enumerate() {
+            if let Some(feed) = feed {
+                self.feed_flows[*feed].flow -= extent.images() * self.excess[k] * self.units.flow;
+            }
+        }
+    }
+
+    pub(crate) fn advance_set(&mut self, closure: &dyn CavitationModel) -> usize {
+        closure.update_set(
+            &self.operator,
+            &self.pressure,
+            &self.film_fraction,
+            &self.excess,
+            ROUND_OFF * self.flow_scale,
+            &mut self.set,
+        )
+    }
+
+    pub(crate) fn write_fields(
+        &mut self,
+        bearing: &Bearing,
+        grid: &Grid,
+        extent: Extent,
+        turned: f64,
+    ) {
+        let fields = &mut self.fields;
+        for (angle, local) in fields.angles.iter_mut().zip(&grid.around) {
+            *angle = local + turned;
+        }
+        let m = grid.n_axial();
+        let units = &self.units;
+        let pressure = |k: usize| self.pressure[k] * units.pressure + bearing.cavitation_pressure;
+        extent.unfold(m, pressure, &mut fields.pressure);
+        extent.unfold(m, |k| self.film_fraction[k], &mut fields.film_fraction);
+        let thickness = |k: usize| self.gap.mean[k] * units.clearance;
+        extent.unfold(m, thickness, &mut fields.film_thickness);
+    }
+
+    pub(crate) fn complementarity_violation(&self) -> f64 {
+        let peak = self
+            .pressure
+            .iter()
+            .fold(f64::MIN_POSITIVE, |a, b| a.max(*b));
+        let fields = self.pressure.iter().zip(&self.film_fraction);
+        fields.fold(0.0_f64, |worst, (p, theta)| {
+            let both = (p / peak).min(1.0 - theta);
+            worst.max(-p / peak).max(theta - 1.0).max(-theta).max(both)
+        })
+    }
+
+    /// Largest imbalance of a cell whose equation is a balance, over the largest flow.
+    pub(crate) fn cell_residual(&self, closure: &dyn CavitationModel) -> f64 {
+        let worst = self.excess.iter().zip(&self.set.cells).fold(
+            0.0_f64,
+            |worst, (excess, cell)| match cell {
+                Cell::Full => worst.max(excess.abs()),
+                Cell::Ruptured if closure.conserves_mass() => worst.max(excess.abs()),
+                _ => worst,
+            },
+        );
+        // Where nothing flows, round-off of the pressures is all there is to compare with.
+        let conductance = self.operator.conductance_around.iter();
+        let gross = conductance.fold(0.0_f64, |a, b| a.max(*b))
+            * self.pressure.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        if self.flow_scale > ROUND_OFF * gross {
+            worst / self.flow_scale
+        } else {
+            0.0
+        }
+    }
+
+    /// What the last step leaves in the cells becomes the accepted content.
+    pub(crate) fn keep_content(&mut self) {
+        self.content.clear();
+        let gaps = self.gap.mean.iter().zip(&self.gap.rate);
+        let content = self.film_fraction.iter().zip(gaps);
+        let after = self.after;
+        self.content
+            .extend(content.map(|(theta, (mean, rate))| theta * (mean + after * rate)));
+    }
+}
