@@ -211,7 +211,11 @@ pub(crate) fn badge(outcome: Outcome) -> Option<&'static str> {
 /// The note of a table whose numbers did not converge; empty where they did.
 pub(crate) fn last_iterates(header: &Header) -> String {
     badge(header.status).map_or_else(String::new, |status| {
-        format!("{status}: these numbers are last iterates, not results.")
+        if header.status == Outcome::NotConverged {
+            format!("{status}: these numbers are last iterates, not results.")
+        } else {
+            format!("{status}: no results.")
+        }
     })
 }
 
@@ -222,10 +226,7 @@ fn explanation(outcome: Outcome) -> &'static str {
             "At least one calculation stopped before its tolerance. The numbers below are last \
              iterates, not results."
         }
-        Outcome::Starved => {
-            "No oil can reach the film, so that it carries no load. Give a groove, a hole, flooded \
-             ends or an inlet line."
-        }
+        Outcome::Starved => "No oil can reach the film, so that it carries no load.",
         Outcome::NoSolution => {
             "At least at one position the film equations have no solution. The numbers below do \
              not describe a film there."

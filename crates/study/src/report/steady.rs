@@ -44,9 +44,14 @@ fn units(steady: &SteadyResults) -> Units {
     let force = magnitude(steady.load.unwrap_or_else(|| steady.reaction.force()));
     let summary = &steady.summary;
     let flow = side_flow(steady).abs().max(summary.feed_flow.abs());
+    let peak = summary.peak_film_pressure.value;
     Units::choose(
         force,
-        summary.peak_film_pressure.value,
+        if peak.is_finite() {
+            peak
+        } else {
+            steady.specific_load()
+        },
         summary.power_loss(),
         flow,
         torque,
@@ -141,6 +146,10 @@ fn in_film((degrees, axial): (f64, f64)) -> String {
 }
 
 fn figures_of(steady: &SteadyResults) -> Vec<Figure> {
+    // Without a film the journal has no place to draw.
+    if !steady.relative_eccentricity().is_finite() {
+        return Vec::new();
+    }
     let vectors = if steady.load.is_some() {
         "Arrows: load on the journal and force of the film on it, drawn to one scale."
     } else {
