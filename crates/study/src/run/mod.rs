@@ -193,8 +193,12 @@ fn note_outcome(outcome: Outcome, header: &mut Header) {
     header.status = outcome;
     let message = match outcome {
         Outcome::Converged => return,
+        Outcome::NotConverged if header.analysis == "load-cycle" => {
+            "not converged: the numbers are those of the last iterate; try a finer crank_step or \
+             grid, or more maximum_cycles where only the orbit has not closed"
+        }
         Outcome::NotConverged => {
-            "not converged: the numbers are those of the last iterate; try a finer crank_step or grid"
+            "not converged: the numbers are those of the last iterate; try another grid"
         }
         Outcome::Starved => {
             "starved: side flow leaves and no oil enters, so that the mass-conserving film empties \
