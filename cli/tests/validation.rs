@@ -77,8 +77,8 @@ fn tilted_table() {
     assert!(open >= 8 && closed >= 3, "{open} open, {closed} closed");
 }
 
-/// The plain big end over its load cycle: the row of an orbit computed independently of this program
-/// is the bar. The figure of the first row is not reached on any grid; README.md of the case says why.
+/// The plain big end over its load cycle, within 1 % of the independent orbit beside the study. The bar
+/// of the first row, 1.349 um, is not met on any grid; the README of the case shows the figures.
 #[test]
 fn plain_big_end() {
     let study = root().join("validation/plain-big-end/study.toml");

@@ -231,7 +231,8 @@ impl FilmState {
             match self.set.cells[k] {
                 Cell::Full if *x < 0.0 && -*x * weight <= scale => *x = 0.0,
                 Cell::Ruptured if *x > 1.0 && (*x - 1.0) * weight <= scale => *x = 1.0,
-                Cell::Ruptured if *x < 0.0 && -*x * weight <= scale => *x = 0.0,
+                // No film fraction is negative but by round-off, which idle circles magnify.
+                Cell::Ruptured if *x < 0.0 && *x > -1e-6 => *x = 0.0,
                 _ => {}
             }
         }

@@ -87,7 +87,7 @@ fn can_drain(operator: &Operator, cell: usize) -> bool {
 /// any film fraction balances. A leak far below every other flow picks the empty one of them, which
 /// balances exactly; a circle into which oil does flow fills and is ruptured no longer.
 fn drain_closed_circles(operator: &Operator, set: &FilmSet, matrix: &mut RingMatrix) {
-    const LEAK: f64 = 1e-9;
+    const LEAK: f64 = 1e-11;
     let (n, m) = (operator.n_around, operator.n_axial);
     for j in 0..m {
         let is_idle = |k: usize| set.cells[k] == Cell::Ruptured && operator.stored[k] == 0.0;
