@@ -172,3 +172,36 @@ fn finite_film_on_the_one_axis_cycle() {
         "{smallest} {reference}"
     );
 }
+
+/// Nothing to carry: the journal rests in the centre, where every pressure is zero and the film still
+/// resists.
+#[test]
+fn an_unloaded_journal_rests_in_the_centre_of_a_film_on_a_grid() {
+    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds] {
+        let bearing = Bearing {
+            cavitation,
+            ..plain_bearing(0.072, 0.030, 36e-6)
+        };
+        let oil = Lubricant::constant(8e-3, 850.0);
+        let request = EquilibriumRequest {
+            load: [0.0; 2],
+            moment: None,
+            frame: JournalState {
+                journal_speed: 209.0,
+                ..JournalState::default()
+            },
+            start: None,
+            settings: EquilibriumSettings::default(),
+        };
+        for make in [FilmSolver::new, FilmSolver::aligned] {
+            let mut film = make(&bearing, &oil, [64, 16]).unwrap();
+            let found = find_equilibrium(&mut film, &bearing, &request, &CONDITIONS).unwrap();
+            assert_eq!(found.outcome, Outcome::Converged, "{cavitation:?}");
+            let eccentricity = found.state.eccentricity();
+            assert!(
+                eccentricity < 1e-6 * bearing.radial_clearance,
+                "{eccentricity:e}"
+            );
+        }
+    }
+}

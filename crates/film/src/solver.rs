@@ -274,7 +274,7 @@ impl FilmSolver {
         let solved = self.solved();
         let closure = self.closure.as_ref();
         solved.output_weights(
-            |k| closure.loaded(solved.set, solved.pressure, k),
+            |k| closure.loaded(solved.set, &self.film.solution, k),
             &mut adjoints,
         );
         self.film.factor.solve_transposed(&mut adjoints);

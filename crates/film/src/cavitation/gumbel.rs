@@ -3,7 +3,7 @@
 
 use super::{CavitationModel, FilmSet, RupturedRow, assemble_balance};
 use crate::linear::RingMatrix;
-use crate::reynolds::Operator;
+use crate::reynolds::{Cell, Operator};
 
 /// The closure after Guembel.
 #[derive(Debug, Clone, Copy)]
@@ -39,6 +39,11 @@ impl CavitationModel for Gumbel {
 
     fn equation_pressure<'a>(&self, solution: &'a [f64], _pressure: &'a [f64]) -> &'a [f64] {
         solution
+    }
+
+    /// Pressures that are zero are not cut: at rest in the centre all are, and the film still resists.
+    fn loaded(&self, set: &FilmSet, solution: &[f64], cell: usize) -> bool {
+        set.cells[cell] == Cell::Full && solution[cell] >= 0.0
     }
 
     /// There is nothing to decide: the full film, ends included, is solved as it is.

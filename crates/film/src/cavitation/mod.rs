@@ -63,9 +63,10 @@ pub trait CavitationModel: Send + Sync {
         set: &mut FilmSet,
     ) -> usize;
 
-    /// Whether the pressure of a cell acts on the journal: a cut pressure does not.
-    fn loaded(&self, set: &FilmSet, pressure: &[f64], cell: usize) -> bool {
-        set.cells[cell] == Cell::Fed || (set.cells[cell] == Cell::Full && pressure[cell] > 0.0)
+    /// Whether the unknown of a cell acts on the journal: every full cell's pressure does, unless the
+    /// closure cuts it.
+    fn loaded(&self, set: &FilmSet, _solution: &[f64], cell: usize) -> bool {
+        set.cells[cell] == Cell::Full
     }
 }
 
