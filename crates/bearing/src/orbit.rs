@@ -74,6 +74,14 @@ impl Default for OrbitSettings {
     }
 }
 
+impl OrbitSettings {
+    /// Output points per cycle: a whole number of crank steps fills the period.
+    #[must_use]
+    pub fn points_per_cycle(&self, cycle: &LoadCycle) -> usize {
+        (cycle.period / self.crank_step).round().max(1.0) as usize
+    }
+}
+
 /// Where the first cycle starts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -197,7 +205,7 @@ impl<'a> Run<'a> {
                 reason: "the crank step must be positive",
             });
         }
-        let count = (cycle.period / settings.crank_step).round().max(1.0);
+        let count = settings.points_per_cycle(cycle);
         let capabilities = film.capabilities();
         let stepper = Stepper {
             conditions,
@@ -235,8 +243,8 @@ impl<'a> Run<'a> {
             settings,
             stepper,
             substeps: Substeps::new(settings.largest_divisions.min(20)),
-            crank_step: cycle.period / count,
-            count: count as usize,
+            crank_step: cycle.period / count as f64,
+            count,
             points: Vec::new(),
             steps: 0,
             failed_points: 0,

@@ -18,9 +18,9 @@ pub(super) fn fill(page: &mut Page, header: &Header, cycle: &CycleResults) -> Va
     }
     page.figures = figures_of(cycle);
     let worst = cycle
-        .worst_film
+        .fields
         .as_ref()
-        .and_then(|worst| Some((worst, nearest(cycle, worst.crank_angle)?)));
+        .and_then(|fields| Some((&fields.worst, nearest(cycle, fields.worst.crank_angle)?)));
     json!({
         "units": figures::unit_symbols(&units),
         "cycle": figures::cycle_data(header, cycle, &units),
@@ -236,8 +236,8 @@ fn figures_of(cycle: &CycleResults) -> Vec<Figure> {
             "Rotation vector of the journal axis against the shell axis.",
         ));
     }
-    if let Some(worst) = &cycle.worst_film {
-        list.extend(maps(cycle, worst));
+    if let Some(fields) = &cycle.fields {
+        list.extend(maps(cycle, &fields.worst));
     }
     list
 }

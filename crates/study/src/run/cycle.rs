@@ -1,9 +1,10 @@
 //! A load cycle: the orbit, and what its points do not hold.
 
+use super::record::FieldRecorder;
 use super::{ProgressCallback, conditions, film_of, note_outcome};
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, CycleField, CycleResults, FieldSnapshot, Header};
+use crate::results::{Body, CycleResults, Header};
 use sommerfeld_bearing::{CyclePoint, JournalOrbit, OrbitSettings, Progress, journal_orbit};
 use sommerfeld_film::{FeedFlow, FilmError, FilmForce, JournalState, Outcome, Step};
 use std::ops::ControlFlow;
@@ -27,7 +28,7 @@ pub(super) fn solve_cycle(
             outcome: Outcome::Starved,
         },
         feed_flows: Vec::new(),
-        worst_film: None,
+        fields: None,
     };
     // Without supply the film would empty over the cycles and the journal sink into the shell.
     let centred = JournalState {
@@ -48,7 +49,9 @@ pub(super) fn solve_cycle(
         closure_tolerance: duty.closure_tolerance,
         ..OrbitSettings::default()
     };
-    let mut watch = CycleWatch::new(duty.maximum_cycles);
+    let points = orbit_settings.points_per_cycle(&duty.cycle);
+    let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure);
+    let mut watch = CycleWatch::new(duty.maximum_cycles, fields);
     let mut film = film_of(case, settings)?;
     let orbit = journal_orbit(
         film.as_mut(),
@@ -72,29 +75,25 @@ pub(super) fn solve_cycle(
         bearing: case.bearing.clone(),
         orbit,
         feed_flows,
-        worst_film: watch.worst,
+        fields: watch.fields.finish(),
     })))
 }
 
 /// Copies from the running orbit what its points do not hold, and passes its progress on.
 struct CycleWatch {
     expected_cycles: usize,
-    cycle: usize,
-    least_film: f64,
-    worst: Option<CycleField>,
+    fields: FieldRecorder,
     feed_flows: Vec<Vec<FeedFlow>>,
     stopped: bool,
 }
 
 impl CycleWatch {
-    fn new(cycle_limit: usize) -> Self {
+    fn new(cycle_limit: usize, fields: FieldRecorder) -> Self {
         /// Cycles that most orbits take to close: for the estimate of the time left.
         const USUAL_CYCLES: usize = 4;
         Self {
             expected_cycles: cycle_limit.min(USUAL_CYCLES),
-            cycle: 0,
-            least_film: f64::INFINITY,
-            worst: None,
+            fields,
             feed_flows: Vec::new(),
             stopped: false,
         }
@@ -107,17 +106,8 @@ impl CycleWatch {
         stage: Progress,
         progress: &mut ProgressCallback<'_>,
     ) -> ControlFlow<()> {
-        if stage.cycle != self.cycle {
-            self.cycle = stage.cycle;
-            self.least_film = f64::INFINITY;
-        }
-        let thickness = point.summary.minimum_film_thickness.value;
-        if thickness < self.least_film {
-            self.least_film = thickness;
-            self.worst = film.field().map(|field| CycleField {
-                crank_angle: point.crank_angle,
-                field: FieldSnapshot::from(field),
-            });
+        if let Some(field) = film.field() {
+            self.fields.see(stage, point, &field);
         }
         self.feed_flows.push(film.feed_flows().to_vec());
         let label = format!("cycle {}", stage.cycle);

@@ -2,6 +2,7 @@
 
 mod cycle;
 mod inputs;
+mod record;
 mod steady;
 
 use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};

@@ -11,8 +11,8 @@ use sommerfeld_film::{
 use sommerfeld_study::limits::{Limit, Quantity};
 use sommerfeld_study::models;
 use sommerfeld_study::results::{
-    Body, CycleField, CycleResults, DimensionlessResults, FieldSnapshot, Header, InputRow, Results,
-    SteadyResults,
+    AccumulatedMap, Body, CycleField, CycleFields, CycleResults, DimensionlessResults,
+    FieldSnapshot, Header, InputRow, MOST_FRAMES, Results, SteadyResults,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -105,7 +105,16 @@ fn limits() -> [Limit; 2] {
 /// A made-up load cycle.
 pub fn load_cycle(title: &str) -> Results {
     let points: Vec<CyclePoint> = (0..POINTS).map(cycle_point).collect();
-    let worst = points[371];
+    let at = |index: usize| CycleField {
+        crank_angle: points[index].crank_angle,
+        field: field(&points[index].state),
+    };
+    let fields = CycleFields {
+        frames: (1..=MOST_FRAMES).map(|frame| at(10 * frame)).collect(),
+        worst: at(371),
+        on_shell: accumulated(0.0),
+        on_journal: accumulated(PI),
+    };
     let feed_flows = points
         .iter()
         .map(|point| {
@@ -130,10 +139,7 @@ pub fn load_cycle(title: &str) -> Results {
             outcome: Outcome::Converged,
         },
         feed_flows,
-        worst_film: Some(CycleField {
-            crank_angle: worst.crank_angle,
-            field: field(&worst.state),
-        }),
+        fields: Some(fields),
     };
     let mut header = header("load-cycle", title);
     header.error = Some(BTreeMap::from([(
@@ -234,6 +240,23 @@ fn summary(state: &JournalState, peak: f64, turned: f64) -> FilmSummary {
         cell_residual: 5e-12,
         iterations: 3,
         reynolds_number: 180.0,
+    }
+}
+
+/// What a surface has seen, heaviest at `centre`.
+fn accumulated(centre: f64) -> AccumulatedMap {
+    let snapshot = field(&JournalState::default());
+    let by_angle = |value: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        let row = |angle: &f64| vec![value((angle - centre).cos()); snapshot.axial.len()];
+        snapshot.angles.iter().flat_map(row).collect()
+    };
+    AccumulatedMap {
+        minimum_film_thickness: by_angle(&|cos| 1e-6 * (4.0 - 3.0 * cos)),
+        maximum_pressure: by_angle(&|cos| 140e6 * (0.6 + 0.4 * cos)),
+        pressure_amplitude: by_angle(&|cos| 70e6 * (0.6 + 0.4 * cos)),
+        full_film_share: by_angle(&|cos| 0.5 + 0.4 * cos),
+        angles: snapshot.angles,
+        axial: snapshot.axial,
     }
 }
 

@@ -1,0 +1,311 @@
+//! What has each point of shell and journal seen over a cycle?
+//!
+//! The orbit shows every output point of every cycle, and only its end tells which cycle was the
+//! last: each new cycle starts the record anew. Held are the frames and the maps of
+//! [`CycleFields`], whatever the number of crank angles.
+//!
+//! A point fixed on a surface at angle `a` lies at `a + turned` of the frame, `turned` the angle of
+//! that surface. The maps keep the cell centres of the film's grid as the angles of their points; a
+//! field is taken there by linear interpolation between cell centres, periodic around, so that a peak
+//! between two centres is cut by at most the second difference of the field. A surface that
+//! stands is not interpolated at all. A share of the cycle is a mean over output points, which are
+//! evenly spaced; the indicator of a full film is interpolated like a field.
+
+use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot, MOST_FRAMES};
+use sommerfeld_bearing::{CyclePoint, Progress};
+use sommerfeld_film::FilmField;
+use std::f64::consts::TAU;
+
+/// Fills [`CycleFields`] while an orbit runs.
+pub(super) struct FieldRecorder {
+    /// Output points per cycle.
+    points: usize,
+    /// Gauge pressure above which a full cell carries, Pa.
+    cavitation_pressure: f64,
+    /// Cycle of the record, and whether it holds the start of the run, which is no point of a
+    /// periodic orbit and makes way for the first one.
+    stage: (usize, bool),
+    record: Option<Record>,
+}
+
+/// The record of one cycle.
+struct Record {
+    frames: Vec<CycleField>,
+    least_film: f64,
+    worst: CycleField,
+    on_shell: SurfaceRecord,
+    on_journal: SurfaceRecord,
+}
+
+impl FieldRecorder {
+    /// For cycles of so many output points; a full film carries above the cavitation pressure, Pa.
+    pub(super) fn new(points: usize, cavitation_pressure: f64) -> Self {
+        Self {
+            points,
+            cavitation_pressure,
+            stage: (0, false),
+            record: None,
+        }
+    }
+
+    /// Takes one output point.
+    pub(super) fn see(&mut self, progress: Progress, point: &CyclePoint, field: &FilmField<'_>) {
+        let index = (progress.fraction * self.points as f64).round() as usize;
+        let stage = (progress.cycle, index == 0);
+        if stage != self.stage {
+            self.stage = stage;
+            self.record = None;
+        }
+        let snapshot = || CycleField {
+            crank_angle: point.crank_angle,
+            field: FieldSnapshot::from(*field),
+        };
+        let record = self.record.get_or_insert_with(|| Record {
+            frames: Vec::new(),
+            least_film: f64::INFINITY,
+            worst: snapshot(),
+            on_shell: SurfaceRecord::new(field),
+            on_journal: SurfaceRecord::new(field),
+        });
+        let thickness = point.summary.minimum_film_thickness.value;
+        if thickness < record.least_film {
+            record.least_film = thickness;
+            record.worst = snapshot();
+        }
+        if is_frame(index, self.points) {
+            record.frames.push(snapshot());
+        }
+        let least = self.cavitation_pressure;
+        record.on_shell.see(field, point.state.shell_angle, least);
+        let turned = point.state.journal_angle;
+        record.on_journal.see(field, turned, least);
+    }
+
+    /// The fields of the last cycle; `None` if the film showed none.
+    pub(super) fn finish(self) -> Option<CycleFields> {
+        self.record.map(|record| CycleFields {
+            frames: record.frames,
+            worst: record.worst,
+            on_shell: record.on_shell.finish(),
+            on_journal: record.on_journal.finish(),
+        })
+    }
+}
+
+/// Whether output point `index` of 1..=`points` is one of the evenly spaced frames; the last is.
+fn is_frame(index: usize, points: usize) -> bool {
+    let frames = points.min(MOST_FRAMES);
+    let until = |index: usize| index * frames / points;
+    index > 0 && until(index) > until(index - 1)
+}
+
+/// What the points of one surface have seen so far.
+struct SurfaceRecord {
+    angles: Vec<f64>,
+    axial: Vec<f64>,
+    least_thickness: Vec<f64>,
+    least_pressure: Vec<f64>,
+    largest_pressure: Vec<f64>,
+    /// Sum of the indicator of a full film.
+    full: Vec<f64>,
+    seen: usize,
+}
+
+impl SurfaceRecord {
+    fn new(field: &FilmField<'_>) -> Self {
+        let cells = field.pressure.len();
+        Self {
+            angles: field.angles.to_vec(),
+            axial: field.axial.to_vec(),
+            least_thickness: vec![f64::INFINITY; cells],
+            least_pressure: vec![f64::INFINITY; cells],
+            largest_pressure: vec![f64::NEG_INFINITY; cells],
+            full: vec![0.0; cells],
+            seen: 0,
+        }
+    }
+
+    /// Takes the fields of one instant at which the surface has turned by `turned`, rad.
+    fn see(&mut self, field: &FilmField<'_>, turned: f64, cavitation_pressure: f64) {
+        let along = self.axial.len();
+        let is_full = |cell: usize| {
+            let full =
+                field.film_fraction[cell] >= 1.0 && field.pressure[cell] > cavitation_pressure;
+            f64::from(u8::from(full))
+        };
+        for (i, angle) in self.angles.iter().enumerate() {
+            let (from, to, share) = between(field.angles, angle + turned);
+            let (from, to) = (from * along, to * along);
+            for j in 0..along {
+                let (a, b, point) = (from + j, to + j, i * along + j);
+                let at = |values: &[f64]| values[a] + share * (values[b] - values[a]);
+                let pressure = at(field.pressure);
+                let thickness = at(field.film_thickness);
+                self.least_thickness[point] = self.least_thickness[point].min(thickness);
+                self.least_pressure[point] = self.least_pressure[point].min(pressure);
+                self.largest_pressure[point] = self.largest_pressure[point].max(pressure);
+                self.full[point] += is_full(a) + share * (is_full(b) - is_full(a));
+            }
+        }
+        self.seen += 1;
+    }
+
+    fn finish(self) -> AccumulatedMap {
+        let seen = self.seen as f64;
+        let extremes = self.largest_pressure.iter().zip(&self.least_pressure);
+        AccumulatedMap {
+            pressure_amplitude: extremes.map(|(high, low)| 0.5 * (high - low)).collect(),
+            angles: self.angles,
+            axial: self.axial,
+            minimum_film_thickness: self.least_thickness,
+            maximum_pressure: self.largest_pressure,
+            full_film_share: self.full.iter().map(|full| full / seen).collect(),
+        }
+    }
+}
+
+/// The two cells around whose centres an angle lies between, and its share of the way from the first
+/// to the second. The centres ascend and span less than a turn.
+fn between(centres: &[f64], angle: f64) -> (usize, usize, f64) {
+    let first = centres[0];
+    let angle = first + (angle - first).rem_euclid(TAU);
+    let to = centres.partition_point(|centre| *centre <= angle);
+    let from = to.max(1) - 1;
+    let (next, end) = match centres.get(to) {
+        Some(centre) => (to, *centre),
+        None => (0, first + TAU),
+    };
+    let share = (angle - centres[from]) / (end - centres[from]);
+    (from, next, share)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use sommerfeld_film::{FilmSummary, JournalState, Outcome, Reaction};
+
+    const AROUND: usize = 96;
+    const POINTS: usize = 360;
+    const AXIAL: [f64; 2] = [-0.005, 0.005];
+
+    /// Cell centres of an uneven grid, rad.
+    fn angles() -> Vec<f64> {
+        (0..AROUND)
+            .map(|i| (i as f64 + 0.5) * TAU / AROUND as f64)
+            .map(|angle| angle + 0.02 * (2.0 * angle).sin())
+            .collect()
+    }
+
+    /// The record of a wave of pressure 1 + cos(angle - speed turned), seen degree by degree.
+    fn run(speed: f64, journal_speed: f64, cycles: usize) -> CycleFields {
+        let mut recorder = FieldRecorder::new(POINTS, 0.5);
+        for cycle in 1..=cycles {
+            for index in usize::from(cycle > 1)..=POINTS {
+                let turned = (cycle - 1) as f64 * TAU + index as f64 * TAU / POINTS as f64;
+                see(&mut recorder, cycle, index, turned, speed, journal_speed);
+            }
+        }
+        recorder.finish().expect("fields were shown")
+    }
+
+    fn see(
+        recorder: &mut FieldRecorder,
+        cycle: usize,
+        index: usize,
+        turned: f64,
+        speed: f64,
+        journal_speed: f64,
+    ) {
+        let angles = angles();
+        let wave = |angle: &f64| 1.0 + (angle - speed * turned).cos();
+        let pressure: Vec<f64> = angles.iter().flat_map(|a| [wave(a); 2]).collect();
+        let thickness: Vec<f64> = pressure.iter().map(|p| 4.0 - p + 0.1 * turned).collect();
+        let field = FilmField {
+            angles: &angles,
+            axial: &AXIAL,
+            film_fraction: &vec![1.0; pressure.len()],
+            pressure: &pressure,
+            film_thickness: &thickness,
+        };
+        let least = thickness.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut summary = FilmSummary::default();
+        summary.minimum_film_thickness.value = least;
+        let point = CyclePoint {
+            crank_angle: turned,
+            load: [0.0; 2],
+            moment: [0.0; 2],
+            state: JournalState {
+                journal_angle: journal_speed * turned,
+                ..JournalState::default()
+            },
+            reaction: Reaction::default(),
+            summary,
+            outcome: Outcome::Converged,
+        };
+        let fraction = index as f64 / POINTS as f64;
+        recorder.see(Progress { cycle, fraction }, &point, &field);
+    }
+
+    fn assert_all(values: &[f64], expected: f64, bar: f64) {
+        for value in values {
+            assert!((value - expected).abs() <= bar, "{value} for {expected}");
+        }
+    }
+
+    /// A pattern that turns with the journal tires the shell and leaves the journal at rest. The bar
+    /// is twice what linear interpolation costs: an eighth of the spacing squared.
+    #[test]
+    fn a_pattern_fixed_on_the_journal_tires_only_the_shell() {
+        let bar = 2.0 * (1.04 * TAU / AROUND as f64).powi(2) / 8.0;
+        let fields = run(1.0, 1.0, 2);
+        assert_all(&fields.on_journal.pressure_amplitude, 0.0, bar);
+        // The crank step misses the crest by half a degree at most.
+        assert_all(&fields.on_shell.pressure_amplitude, 1.0, 1e-4);
+        assert_all(&fields.on_shell.maximum_pressure, 2.0, 1e-4);
+        // Pressure above 0.5 over two thirds of the way around.
+        assert_all(&fields.on_shell.full_film_share, 2.0 / 3.0, 1.0 / 360.0);
+        for (point, angle) in fields.on_journal.angles.iter().enumerate() {
+            let pressure = fields.on_journal.maximum_pressure[2 * point];
+            assert!((pressure - 1.0 - angle.cos()).abs() < bar, "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_pattern_fixed_on_the_shell_tires_only_the_journal() {
+        let bar = 2.0 * (1.04 * TAU / AROUND as f64).powi(2) / 8.0;
+        let fields = run(0.0, 1.0, 1);
+        assert_all(&fields.on_shell.pressure_amplitude, 0.0, 0.0);
+        assert_all(&fields.on_journal.pressure_amplitude, 1.0, bar);
+        assert_all(&fields.on_journal.full_film_share, 2.0 / 3.0, 0.011);
+    }
+
+    /// The thickness grows with time: only the record of the last cycle is thick.
+    #[test]
+    fn only_the_last_cycle_counts() {
+        let fields = run(1.0, 1.0, 3);
+        let least = 4.0 - 2.0 + 0.1 * 2.0 * TAU;
+        for thickness in &fields.on_shell.minimum_film_thickness {
+            assert!(*thickness > least - 1e-3, "{thickness}");
+        }
+        let first = 2.0 * TAU + TAU / POINTS as f64;
+        assert!((fields.worst.crank_angle - first).abs() < TAU / 8.0);
+        assert_eq!(fields.frames.len(), MOST_FRAMES);
+        let step = TAU / MOST_FRAMES as f64;
+        for (frame, field) in fields.frames.iter().enumerate() {
+            let expected = 2.0 * TAU + (frame + 1) as f64 * step;
+            assert!((field.crank_angle - expected).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn frames_are_evenly_spaced_and_few() {
+        for points in [1, 5, 72, 73, 100, 719, 7200] {
+            let frames: Vec<usize> = (1..=points).filter(|i| is_frame(*i, points)).collect();
+            assert_eq!(frames.len(), points.min(MOST_FRAMES));
+            assert_eq!(frames.last(), Some(&points));
+            let gaps = frames.windows(2).map(|pair| pair[1] - pair[0]);
+            let (least, most) = gaps.fold((points, 1), |(a, b), g| (a.min(g), b.max(g)));
+            assert!(points == 1 || most <= least + 1, "{points}: {least} {most}");
+        }
+    }
+}
