@@ -9,8 +9,8 @@ use sommerfeld_bearing::{
     journal_orbit,
 };
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Feed, FeedShape, FilmForce, FilmShear, FilmSolver, JournalState,
-    Outcome,
+    Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmShear, FilmSolver,
+    JournalState, Outcome,
 };
 use sommerfeld_oil::Lubricant;
 use std::f64::consts::PI;
@@ -26,6 +26,7 @@ fn big_end(shape: FeedShape, carried_by: Carrier) -> Bearing {
         angle: 0.5 * PI,
         position: 0.0,
         pressure: 5e5,
+        line: FeedLine::Direct,
     });
     bearing
 }

@@ -111,8 +111,36 @@ pub struct Feed {
     pub angle: f64,
     /// Axial position of its centre from the mid-plane, m.
     pub position: f64,
-    /// Gauge feed pressure, Pa.
+    /// Gauge supply pressure, Pa: where the line begins, with the head of a crank drilling.
     pub pressure: f64,
+    /// What lies between supply and feed.
+    #[serde(default)]
+    pub line: FeedLine,
+}
+
+/// The line that brings oil to a feed.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FeedLine {
+    /// The supply pressure holds in the feed, whatever flows.
+    #[default]
+    Direct,
+    /// Laminar: the pressure falls in proportion to the flow into the film.
+    Resistive {
+        /// Pressure drop per flow, Pa s/m3; not negative.
+        resistance: f64,
+    },
+}
+
+impl FeedLine {
+    /// Pressure drop per flow, Pa s/m3.
+    #[must_use]
+    pub fn resistance(self) -> f64 {
+        match self {
+            Self::Direct => 0.0,
+            Self::Resistive { resistance } => resistance,
+        }
+    }
 }
 
 /// Outline of a feed on the developed bearing surface.

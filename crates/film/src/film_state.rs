@@ -3,6 +3,7 @@
 
 use crate::bearing::{Bearing, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet};
+use crate::feed_lines::FeedLines;
 use crate::force::{Conditions, FeedFlow, Reaction, Step};
 use crate::gap::Gap;
 use crate::grid::Grid;
@@ -24,6 +25,9 @@ pub(crate) struct FilmState {
     pub(crate) matrix: RingMatrix,
     pub(crate) factor: RingFactor,
     pub(crate) fed_by: Vec<Option<usize>>,
+    pub(crate) lines: FeedLines,
+    /// Flow into the film by the cells of each feed, 1/s.
+    pub(crate) film_flows: Vec<f64>,
     pub(crate) rhs: Vec<f64>,
     pub(crate) solution: Vec<f64>,
     pub(crate) correction: Vec<f64>,
@@ -83,6 +87,8 @@ impl FilmState {
             factor: RingFactor::new(&matrix),
             matrix,
             fed_by: vec![None; n * m],
+            lines: FeedLines::new(bearing, n * m),
+            film_flows: vec![0.0; bearing.feeds.len()],
             rhs: zero.clone(),
             solution: zero.clone(),
             correction: zero.clone(),
@@ -116,22 +122,28 @@ impl FilmState {
         (pressure - bearing.cavitation_pressure) / self.units.pressure
     }
 
-    pub(crate) fn place_feeds(&mut self, bearing: &Bearing, conditions: &Conditions<'_>) {
+    pub(crate) fn place_feeds(
+        &mut self,
+        bearing: &Bearing,
+        extent: Extent,
+        conditions: &Conditions<'_>,
+    ) {
         let given = conditions.feed_pressures;
+        let per_flow = extent.images() * self.units.flow / self.units.pressure;
         for (index, feed) in bearing.feeds.iter().enumerate() {
-            self.feed_flows[index].pressure = given
+            let pressure = given
                 .and_then(|p| p.get(index))
                 .map_or(feed.pressure, |p| *p);
+            let supply = self.relative_pressure(bearing, pressure);
+            let resistance = feed.line.resistance() * per_flow;
+            self.lines.set_line(index, supply, resistance);
         }
-        for k in 0..self.fed_by.len() {
-            match (self.fed_by[k], self.set.cells[k]) {
-                (Some(feed), _) => {
-                    self.set.cells[k] = Cell::Fed;
-                    self.set.fed_pressure[k] =
-                        self.relative_pressure(bearing, self.feed_flows[feed].pressure);
-                }
-                // The feed moved on and left a full film.
-                (None, Cell::Fed) => self.set.cells[k] = Cell::Full,
+        self.lines.gather(&self.fed_by, &mut self.set);
+        for (cell, feed) in self.set.cells.iter_mut().zip(&self.fed_by) {
+            match (feed, *cell) {
+                (Some(_), _) => *cell = Cell::Fed,
+                // The feed moved on and left its cell.
+                (None, Cell::Fed) => *cell = Cell::Full,
                 _ => {}
             }
         }
@@ -171,13 +183,19 @@ impl FilmState {
 
     /// Stage 4: solves the equations of the present set. `false` where they determine no film.
     pub(crate) fn solve(&mut self, closure: &dyn CavitationModel) -> bool {
+        let conserves = closure.conserves_mass();
         closure.admit_set(&self.operator, &mut self.set);
+        self.lines.prepare(&self.operator, &self.fed_by);
+        self.lines.fill(&self.fed_by, conserves, &mut self.set);
         closure.assemble(&self.operator, &self.set, &mut self.matrix, &mut self.rhs);
         if !self.factor.factor(&self.matrix) {
             return false;
         }
         self.solution.copy_from_slice(&self.rhs);
         self.factor.solve(&mut self.solution);
+        if self.lines.has_unknowns() && !self.solve_lines(closure) {
+            return false;
+        }
         self.refine();
         self.snap_round_off();
         closure.fields(
@@ -190,6 +208,21 @@ impl FilmState {
             self.operator
                 .balance(&self.pressure, &self.film_fraction, &mut self.excess);
         self.solution.iter().all(|x| x.is_finite())
+    }
+
+    /// Adds what the unknown pressures of feeds behind lines do to the film solved without them.
+    fn solve_lines(&mut self, closure: &dyn CavitationModel) -> bool {
+        let conserves = closure.conserves_mass();
+        let tolerance = ROUND_OFF * self.flow_unit();
+        let (operator, set) = (&self.operator, &mut self.set);
+        self.lines.assemble(operator, set, &self.fed_by, conserves);
+        let (factor, film) = (&mut self.factor, &mut self.solution);
+        if !self.lines.close(factor, film, tolerance, conserves) {
+            return false;
+        }
+        self.lines.fill(&self.fed_by, conserves, set);
+        closure.assemble(operator, set, &mut self.matrix, &mut self.rhs);
+        true
     }
 
     /// Iterative refinement where elimination left more than round-off of the flows.
@@ -238,26 +271,32 @@ impl FilmState {
         }
     }
 
-    pub(crate) fn account_feeds(&mut self, extent: Extent) {
-        for feed in &mut self.feed_flows {
-            feed.flow = 0.0;
-        }
-        for (k, feed) in self.fed_by.iter().enumerate() {
+    pub(crate) fn account_feeds(&mut self, bearing: &Bearing, extent: Extent) {
+        self.film_flows.fill(0.0);
+        for (excess, feed) in self.excess.iter().zip(&self.fed_by) {
             if let Some(feed) = feed {
-                self.feed_flows[*feed].flow -= extent.images() * self.excess[k] * self.units.flow;
+                self.film_flows[*feed] -= excess;
             }
         }
+        let units = [self.units.pressure, extent.images() * self.units.flow];
+        let cavitation = bearing.cavitation_pressure;
+        self.lines
+            .account(&self.film_flows, units, cavitation, &mut self.feed_flows);
     }
 
     pub(crate) fn advance_set(&mut self, closure: &dyn CavitationModel) -> usize {
-        closure.update_set(
-            &self.operator,
-            &self.pressure,
-            &self.film_fraction,
-            &self.excess,
-            ROUND_OFF * self.flow_scale,
-            &mut self.set,
-        )
+        let tolerance = ROUND_OFF * self.flow_scale;
+        let conserves = closure.conserves_mass();
+        let lines = self.lines.update(&self.film_flows, tolerance, conserves);
+        lines
+            + closure.update_set(
+                &self.operator,
+                &self.pressure,
+                &self.film_fraction,
+                &self.excess,
+                tolerance,
+                &mut self.set,
+            )
     }
 
     pub(crate) fn write_fields(
@@ -294,11 +333,12 @@ impl FilmState {
 
     /// Largest imbalance of a cell whose equation is a balance, over the largest flow.
     pub(crate) fn cell_residual(&self, closure: &dyn CavitationModel) -> f64 {
+        let conserves = closure.conserves_mass();
         let worst = self.excess.iter().zip(&self.set.cells).fold(
-            0.0_f64,
+            self.lines.imbalance(&self.film_flows, conserves),
             |worst, (excess, cell)| match cell {
                 Cell::Full => worst.max(excess.abs()),
-                Cell::Ruptured if closure.conserves_mass() => worst.max(excess.abs()),
+                Cell::Ruptured if conserves => worst.max(excess.abs()),
                 _ => worst,
             },
         );

@@ -310,7 +310,10 @@ impl SolvedFilm<'_> {
         self.sensitivity_around(adjoints, &mut by_position);
         self.sensitivity_axial(adjoints, &mut by_position);
         match storage {
-            Storage::Rate => self.sensitivity_storage(adjoints, 1.0, &mut by_rate),
+            Storage::Rate => {
+                self.sensitivity_storage(adjoints, 1.0, &mut by_rate);
+                self.sensitivity_limited_storage(adjoints, &mut by_position);
+            }
             Storage::Step {
                 duration, after, ..
             } => {
@@ -419,9 +422,7 @@ impl SolvedFilm<'_> {
             let trig = self.angles.means[i];
             for j in 0..m {
                 let k = i * m + j;
-                let limited = self.film_fraction[k] < 1.0
-                    && self.operator.ruptured_storage[k] > self.operator.storage[k];
-                if !limited {
+                if !self.gains_limited(k) {
                     let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
                     by.add(adjoints[k], [0.0; 4], by_height, trig, self.grid.axial[j]);
                 }
@@ -429,15 +430,37 @@ impl SolvedFilm<'_> {
         }
     }
 
-    /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell.
+    /// A ruptured cell gains no more than transport brings it, see [`Operator::ruptured_storage`].
+    fn gains_limited(&self, cell: usize) -> bool {
+        self.film_fraction[cell] < 1.0
+            && self.operator.ruptured_storage[cell] > self.operator.storage[cell]
+    }
+
+    /// The limited gain follows the gap at the face that the cell drains through.
+    fn sensitivity_limited_storage(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+        let m = self.grid.n_axial();
+        let speed = self.operator.mean_speed;
+        for i in 0..self.grid.n_around() {
+            let trig = self.angles.faces[if speed > 0.0 { i + 1 } else { i }];
+            for j in 0..m {
+                let k = i * m + j;
+                if self.gains_limited(k) {
+                    let by_height = -speed.abs() * self.grid.area(i, j) * self.film_fraction[k];
+                    by.add(adjoints[k], [0.0; 4], by_height, trig, self.grid.axial[j]);
+                }
+            }
+        }
+    }
+
+    /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell whose
+    /// P is an unknown that acts on the journal (`loaded`).
     pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Lanes]) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
             let [cos, sin] = self.angles.means[i];
             for j in 0..m {
                 let k = i * m + j;
-                let unknown = self.set.cells[k] == Cell::Full && loaded(k);
-                let area = if unknown { self.grid.area(i, j) } else { 0.0 };
+                let area = if loaded(k) { self.grid.area(i, j) } else { 0.0 };
                 let lever = area * self.grid.axial[j];
                 weights[k] = [-cos * area, -sin * area, sin * lever, -cos * lever];
             }

@@ -14,6 +14,7 @@ pub mod bearing;
 pub mod cavitation;
 pub mod closed_form;
 pub mod dimensionless;
+mod feed_lines;
 mod film_state;
 pub mod force;
 pub mod frame;
@@ -27,7 +28,9 @@ pub mod reynolds;
 pub mod solver;
 pub mod supply;
 
-pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+pub use bearing::{
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
+};
 pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
 pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,

@@ -2,9 +2,10 @@
 //!
 //! The stages of [`FilmSolver::linearise`]:
 //! 1. gap: where the journal is, how thick the film
-//! 2. supply: which cells a groove or hole holds at its pressure
+//! 2. supply: which cells a groove or hole keeps at its pressure
 //! 3. operator: what conducts, what is dragged along, what is stored
-//! 4. cavitation: the equations of the present set, solved directly
+//! 4. cavitation: the equations of the present set, solved directly, bordered by the feeds whose line
+//!    resists
 //! 5. integrals: force, moment, torques; tangents by adjoints on the same factors
 //! 6. the next set; unchanged means settled
 
@@ -225,6 +226,8 @@ impl FilmSolver {
             let parent = (k / m / around) * m_coarse + (k % m) / along;
             *cell = coarse.film.set.cells[parent];
         }
+        let starved = &coarse.film.lines.starved;
+        self.film.lines.starved.copy_from_slice(starved);
         Ok(())
     }
 
@@ -241,8 +244,14 @@ impl FilmSolver {
         self.angles
             .fill_gap(&self.grid, &position, &rate, &mut film.gap);
 
-        mark_fed_cells(&self.bearing, &self.grid, state, &mut film.fed_by);
-        film.place_feeds(&self.bearing, conditions);
+        mark_fed_cells(
+            &self.bearing,
+            &self.grid,
+            state,
+            &mut film.fed_by,
+            &mut film.lines.pocket,
+        );
+        film.place_feeds(&self.bearing, self.extent, conditions);
 
         film.place_boundaries(&self.bearing);
         film.take_old_content(step);
@@ -273,15 +282,24 @@ impl FilmSolver {
         let mut adjoints = std::mem::take(&mut self.film.adjoints);
         let solved = self.solved();
         let closure = self.closure.as_ref();
+        let (lines, fed_by) = (&self.film.lines, &self.film.fed_by);
         solved.output_weights(
-            |k| closure.loaded(solved.set, &self.film.solution, k),
+            |k| match solved.set.cells[k] {
+                Cell::Fed => lines.answers(fed_by, k),
+                _ => closure.loaded(solved.set, &self.film.solution, k),
+            },
             &mut adjoints,
         );
+        if lines.has_unknowns() {
+            self.film.lines.close_adjoints(&mut adjoints);
+        }
         self.film.factor.solve_transposed(&mut adjoints);
-        // Known cells have no balance that could answer.
-        for (adjoint, cell) in adjoints.iter_mut().zip(&self.film.set.cells) {
-            if *cell == Cell::Fed || (*cell == Cell::Ruptured && !closure.conserves_mass()) {
-                *adjoint = [0.0; 4];
+        // Known cells have no balance that could answer; those of a feed behind a line share one.
+        for (k, adjoint) in adjoints.iter_mut().enumerate() {
+            match self.film.set.cells[k] {
+                Cell::Fed => *adjoint = self.film.lines.multiplier(&self.film.fed_by, k),
+                Cell::Ruptured if !closure.conserves_mass() => *adjoint = [0.0; 4],
+                _ => {}
             }
         }
         let storage = film_storage(closure, step, &self.film.old_content);
@@ -331,7 +349,7 @@ impl FilmForce for FilmSolver {
         if !self.film.solve(self.closure.as_ref()) {
             return Ok(Linearised::without_film(Outcome::NoSolution));
         }
-        self.film.account_feeds(self.extent);
+        self.film.account_feeds(&self.bearing, self.extent);
         let reaction = self.extent.reaction(self.solved().reaction(&local));
         let tangent = self.extent.tangent(self.tangent(step));
         let (reaction, tangent) = self.frame.from_grid(&local, turned, reaction, tangent);

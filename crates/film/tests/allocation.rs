@@ -6,7 +6,7 @@ mod common;
 
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
-    Bearing, Cavitation, FilmForce, FilmSolver, Inlet, JournalState, Outcome, Step,
+    Bearing, Cavitation, Feed, FeedLine, FilmForce, FilmSolver, Inlet, JournalState, Outcome, Step,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -68,7 +68,17 @@ fn state(bearing: &Bearing, k: usize, duration: f64) -> JournalState {
 fn an_update_allocates_nothing_after_the_first() {
     let duration = 1e-4;
     let plain = || Bearing {
-        feeds: vec![feed_hole()],
+        // Without a line, and behind one.
+        feeds: vec![
+            Feed {
+                angle: 4.0,
+                ..feed_hole()
+            },
+            Feed {
+                line: FeedLine::Resistive { resistance: 5e10 },
+                ..feed_hole()
+            },
+        ],
         ..big_end()
     };
     for cavitation in [

@@ -7,8 +7,8 @@ mod common;
 use common::recomputed::{Past, Recomputed, recompute};
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmForce, FilmShear, FilmSolver,
-    FilmSummary, Inlet, JournalState, Linearised, Step,
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmForce, FilmShear,
+    FilmSolver, FilmSummary, Inlet, JournalState, Linearised, Step,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -27,6 +27,7 @@ fn axial_groove(angle: f64) -> Feed {
         angle,
         position: 0.0,
         pressure: 3e5,
+        line: FeedLine::Direct,
     }
 }
 
@@ -37,6 +38,7 @@ fn circumferential_groove() -> Feed {
         angle: 0.0,
         position: 1e-3,
         pressure: 4e5,
+        line: FeedLine::Direct,
     }
 }
 
@@ -47,6 +49,14 @@ fn shell_hole() -> Feed {
         angle: 4.0,
         position: -4e-3,
         pressure: 2e5,
+        line: FeedLine::Direct,
+    }
+}
+
+fn behind(feed: Feed, resistance: f64) -> Feed {
+    Feed {
+        line: FeedLine::Resistive { resistance },
+        ..feed
     }
 }
 
@@ -54,6 +64,15 @@ fn shell_hole() -> Feed {
 fn bearings() -> Vec<(&'static str, Bearing)> {
     let with = |feeds: Vec<Feed>| Bearing { feeds, ..big_end() };
     vec![
+        ("hole behind a line", with(vec![behind(feed_hole(), 4e10)])),
+        (
+            "groove starved by its line, and a hole",
+            with(vec![behind(axial_groove(5.5), 2e12), shell_hole()]),
+        ),
+        (
+            "two holes behind lines",
+            with(vec![behind(shell_hole(), 1e10), behind(feed_hole(), 1e11)]),
+        ),
         ("journal hole", with(vec![feed_hole()])),
         ("two holes", with(vec![shell_hole(), feed_hole()])),
         (
@@ -289,7 +308,20 @@ fn implicit_steps_balance() {
         (position, tilt)
     };
     let feeds = vec![feed_hole(), axial_groove(2.0)];
+    // Not passing over one another: the balance of each feed is then its own.
+    let aside = Feed {
+        position: -9e-3,
+        ..shell_hole()
+    };
+    let lines = vec![behind(feed_hole(), 1e10), behind(aside, 3e12)];
     for (name, bearing) in [
+        (
+            "lines",
+            Bearing {
+                feeds: lines,
+                ..big_end()
+            },
+        ),
         (
             "air",
             Bearing {

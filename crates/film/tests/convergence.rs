@@ -7,7 +7,8 @@ mod common;
 
 use common::{big_end, conditions, least_squares_order, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmForce, FilmSolver, JournalState, Step,
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmForce, FilmSolver,
+    JournalState, Step,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
@@ -203,6 +204,7 @@ fn rupture_mass_conserving() {
                 angle: -FRAC_PI_2,
                 position: 0.0,
                 pressure: 2e5,
+                line: FeedLine::Direct,
             }],
             ..big_end()
         },

@@ -8,7 +8,8 @@ mod common;
 
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Feed, FeedShape, FilmForce, FilmSolver, JournalState, Step,
+    Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmSolver, JournalState,
+    Step,
 };
 
 fn groove() -> Feed {
@@ -18,6 +19,7 @@ fn groove() -> Feed {
         angle: 0.0,
         position: 0.0,
         pressure: 2e5,
+        line: FeedLine::Direct,
     }
 }
 

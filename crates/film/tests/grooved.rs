@@ -8,8 +8,8 @@ mod common;
 
 use common::{big_end, conditions, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Feed, FeedShape, FilmForce, FilmShear, FilmSolver, JournalState,
-    Step,
+    Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmShear, FilmSolver,
+    JournalState, Step,
 };
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -30,6 +30,7 @@ fn bearing(cavitation: Cavitation, film_shear: FilmShear) -> Bearing {
             angle: 0.0,
             position: 0.0,
             pressure: FEED_PRESSURE,
+            line: FeedLine::Direct,
         }],
         ..big_end()
     }

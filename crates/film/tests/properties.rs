@@ -10,8 +10,8 @@ mod common;
 
 use common::{conditions, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmForce, FilmShear, FilmSolver, Inlet,
-    JournalState, Outcome, Step,
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmForce, FilmShear,
+    FilmSolver, Inlet, JournalState, Outcome, Step,
 };
 use std::f64::consts::TAU;
 
@@ -56,6 +56,7 @@ fn random_feed(random: &mut Random, bearing: &Bearing) -> Feed {
         angle: random.between(0.0, TAU),
         position: random.between(-0.2, 0.2) * b,
         pressure: random.pick(&[0.0, 1e5, 5e5, 20e5]),
+        line: FeedLine::Direct,
     }
 }
 

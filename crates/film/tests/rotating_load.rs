@@ -8,7 +8,7 @@ mod common;
 
 use common::{big_end, conditions, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Feed, FeedShape, FilmForce, FilmSolver, JournalState, Step,
+    Bearing, Carrier, Feed, FeedLine, FeedShape, FilmForce, FilmSolver, JournalState, Step,
 };
 use std::f64::consts::TAU;
 
@@ -24,6 +24,7 @@ fn bearing() -> Bearing {
             angle: 0.0,
             position: 0.0,
             pressure: 5e5,
+            line: FeedLine::Direct,
         }],
         ..big_end()
     }

@@ -5,7 +5,8 @@ mod common;
 
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
-    Bearing, Cavitation, FilmForce, FilmSolver, Inlet, JournalState, Reaction, Step,
+    Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmSolver, Inlet,
+    JournalState, Reaction, Step,
 };
 
 fn state(c: f64) -> JournalState {
@@ -41,6 +42,11 @@ fn nudge(state: &mut JournalState, rates: bool, column: usize, by: f64) {
 
 /// Worst deviation over each row's largest entry, by position and by rate.
 fn worst_deviation(bearing: &Bearing, step: Step) -> f64 {
+    worst_deviation_within(bearing, step, 1e-6)
+}
+
+/// The same with differences over twice this share of the clearance.
+fn worst_deviation_within(bearing: &Bearing, step: Step, nudged: f64) -> f64 {
     let c = bearing.radial_clearance;
     let centre = state(c);
     let mut film = FilmSolver::new(bearing, &oil(), [64, 16]).unwrap();
@@ -72,7 +78,7 @@ fn worst_deviation(bearing: &Bearing, step: Step) -> f64 {
         for column in 0..4 {
             // Small against the cells, so that the set mostly stays as it is.
             let unit = if column < 2 { c } else { c / 0.015 } * if rates { 200.0 } else { 1.0 };
-            let by = 1e-6 * unit;
+            let by = nudged * unit;
             let mut react = |sign: f64| {
                 let mut moved = centre;
                 nudge(&mut moved, rates, column, sign * by);
@@ -139,4 +145,84 @@ fn tangents_follow_the_line_of_centres() {
         let deviation = worst_deviation(&bearing, Step::Steady);
         assert!(deviation < 2e-5, "{cavitation:?}: {deviation:e}");
     }
+}
+
+/// A hole in the journal and a groove in the shell, each behind its own line; and the groove alone
+/// behind a line that starves it.
+fn behind_lines() -> [(&'static str, Vec<Feed>); 3] {
+    let behind = |feed: Feed, resistance: f64| Feed {
+        line: FeedLine::Resistive { resistance },
+        ..feed
+    };
+    let groove = Feed {
+        shape: FeedShape::Rectangle {
+            length: 9e-3,
+            width: 15e-3,
+        },
+        carried_by: Carrier::Shell,
+        angle: 4.0,
+        pressure: 2e5,
+        ..feed_hole()
+    };
+    [
+        (
+            "two lines",
+            vec![behind(feed_hole(), 2e10), behind(groove.clone(), 4e10)],
+        ),
+        (
+            "hole behind a line beside a groove without",
+            vec![behind(feed_hole(), 3e10), groove.clone()],
+        ),
+        ("starved", vec![behind(groove, 1e12)]),
+    ]
+}
+
+#[test]
+fn tangents_include_the_lines() {
+    let steps = [
+        Step::Steady,
+        Step::Implicit {
+            duration: 1e-4,
+            after: 5e-5,
+        },
+    ];
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
+        for (name, feeds) in behind_lines() {
+            for step in steps {
+                let bearing = Bearing {
+                    cavitation,
+                    feeds: feeds.clone(),
+                    ..big_end()
+                };
+                // A cell of the moving film fills within 1e-7 of the clearance: no derivative.
+                let deviation = worst_deviation_within(&bearing, step, 1e-8);
+                assert!(
+                    deviation < 2e-6,
+                    "{cavitation:?} {name} {step:?}: {deviation:e}"
+                );
+            }
+        }
+    }
+}
+
+/// What the tests above differentiate: one line feeds in part, the other starves.
+#[test]
+fn the_lines_are_at_work() {
+    let solved = |feeds: Vec<Feed>| {
+        let bearing = Bearing { feeds, ..big_end() };
+        let mut film = FilmSolver::new(&bearing, &oil(), [64, 16]).unwrap();
+        let state = state(bearing.radial_clearance);
+        film.react(&state, Step::Steady, &conditions()).unwrap();
+        film.feed_flows().to_vec()
+    };
+    let [(_, two), _, (_, starved)] = behind_lines();
+    for (feed, flow) in two.iter().zip(solved(two.clone())) {
+        let lost = 1.0 - flow.pressure / feed.pressure;
+        assert!((0.05..0.999).contains(&lost), "{flow:?}");
+    }
+    assert_eq!(solved(starved)[0].pressure, 0.0);
 }

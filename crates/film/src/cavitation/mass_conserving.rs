@@ -38,7 +38,8 @@ impl CavitationModel for MassConserving {
     ) {
         for (k, x) in solution.iter().enumerate() {
             (pressure[k], film_fraction[k]) = match set.cells[k] {
-                Cell::Full | Cell::Fed => (*x, 1.0),
+                Cell::Full => (*x, 1.0),
+                Cell::Fed => (*x, set.fed_fraction[k]),
                 Cell::Ruptured => (0.0, *x),
             };
         }

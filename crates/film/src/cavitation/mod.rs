@@ -87,6 +87,8 @@ pub struct FilmSet {
     pub cells: Vec<Cell>,
     /// Pressure of fed cells, 1/s.
     pub fed_pressure: Vec<f64>,
+    /// Film fraction of fed cells: 1, or less where a line brings less than the film takes.
+    pub fed_fraction: Vec<f64>,
     /// Per station and end (`2 i + end`): oil leaves there. Closed where air would be drawn in.
     pub end_open: Vec<bool>,
 }
@@ -98,6 +100,7 @@ impl FilmSet {
         Self {
             cells: vec![Cell::Full; n_around * n_axial],
             fed_pressure: vec![0.0; n_around * n_axial],
+            fed_fraction: vec![1.0; n_around * n_axial],
             end_open: vec![true; 2 * n_around],
         }
     }
@@ -197,6 +200,9 @@ fn assemble_balance(
                     row.centre += outward;
                 } else if outward <= 0.0 && neighbour.is_some_and(ruptured_at) {
                     *entry += outward;
+                } else if outward <= 0.0 {
+                    let fed = neighbour.filter(|&c| set.cells[c] == Cell::Fed);
+                    row.rhs -= outward * fed.map_or(1.0, |c| set.fed_fraction[c]);
                 } else {
                     row.rhs -= outward;
                 }

@@ -5,7 +5,7 @@ pub mod planar;
 pub mod recomputed;
 
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, Inlet,
+    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
 };
 use sommerfeld_oil::Lubricant;
 
@@ -33,6 +33,7 @@ pub fn feed_hole() -> Feed {
         angle: std::f64::consts::FRAC_PI_2,
         position: 0.0,
         pressure: 5e5,
+        line: FeedLine::Direct,
     }
 }
 

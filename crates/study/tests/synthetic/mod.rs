@@ -5,8 +5,8 @@
 
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Extreme, Feed, FeedFlow, FeedShape, FilmShear, FilmSummary,
-    Inlet, JournalState, Outcome, Reaction,
+    Bearing, Carrier, Cavitation, Ends, Extreme, Feed, FeedFlow, FeedLine, FeedShape, FilmShear,
+    FilmSummary, Inlet, JournalState, Outcome, Reaction,
 };
 use sommerfeld_study::limits::{Limit, Quantity};
 use sommerfeld_study::models;
@@ -35,6 +35,7 @@ pub fn bearing() -> Bearing {
                 angle: 0.5 * PI,
                 position: 0.0,
                 pressure: 5e5,
+                line: FeedLine::Direct,
             },
             Feed {
                 shape: FeedShape::Rectangle {
@@ -45,6 +46,7 @@ pub fn bearing() -> Bearing {
                 angle: 0.0,
                 position: 0.0,
                 pressure: 5e5,
+                line: FeedLine::Direct,
             },
         ],
         ambient_pressure: 0.0,

@@ -6,7 +6,9 @@ use crate::input::read::{Entries, MOST_ERRORS};
 use crate::input::schema::Mode;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
-use sommerfeld_film::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+use sommerfeld_film::{
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
+};
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -409,6 +411,7 @@ impl GrooveCheck<'_, '_> {
             },
             position: self.number("bearing.groove.position")?,
             pressure: self.number("bearing.groove.pressure")?,
+            line: FeedLine::Direct,
         };
         let errors = self.misfits(&feed);
         if errors.is_empty() {
