@@ -1,5 +1,6 @@
 //! From a study file to results: checked input, the run, tables and the report.
 
+pub mod hdf5;
 pub mod input;
 pub mod limits;
 pub mod models;
@@ -8,6 +9,7 @@ pub mod progress;
 pub mod report;
 pub mod results;
 pub mod run;
+pub mod spool;
 pub mod templates;
 
 pub use input::{InputError, InputErrors, Study, load_study};

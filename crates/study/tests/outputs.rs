@@ -194,10 +194,18 @@ fn the_field_table_has_a_row_per_cell() {
 fn files_appear_whole_and_alone() {
     let directory = directory("whole");
     let files = write_all(&synthetic::load_cycle("cycle"), &directory).unwrap();
-    assert_eq!(files.len(), WRITERS.len());
-    for entry in std::fs::read_dir(&directory).unwrap() {
-        assert!(files.contains(&entry.unwrap().path()));
+    for writer in WRITERS {
+        assert!(files.contains(&directory.join(writer.file_name())));
     }
+    let mut found = 0;
+    for place in [directory.clone(), directory.join("paraview")] {
+        for entry in std::fs::read_dir(&place).unwrap() {
+            let path = entry.unwrap().path();
+            assert!(path.is_dir() || files.contains(&path), "{}", path.display());
+            found += usize::from(path.is_file());
+        }
+    }
+    assert_eq!(found, files.len());
 }
 
 #[test]

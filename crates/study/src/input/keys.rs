@@ -152,6 +152,10 @@ pub const KEYS: &[Key] = &[
     key("limits.maximum_specific_load", Limit(Dimension::Pressure, Range::above(0.0, 1e5, "bar")), Optional, PHYSICAL, "Largest load over diameter times width allowed.", "{ value = \"60 MPa\", source = \"supplier\" }"),
     key("limits.power_loss", Limit(Dimension::Power, Range::above(0.0, 1e9, "W")), Optional, PHYSICAL, "Largest power lost in the film allowed (mean over a cycle).", "{ value = \"1 kW\", source = \"heat budget\" }"),
 
+    key("output", Table, Optional, CYCLE, "What is written.", ""),
+    key("output.fields", Choice(&["all", "frames", "none"], &[]), Default("all"), CYCLE,
+        "Crank angles of which results.h5 holds the fields: every one, at most 72 evenly spaced ones, or none.", "\"frames\""),
+
     planned("engine", "An engine, from layout and gas pressure to the loads of its bearings."),
     planned("shaft", "A shaft on several bearings."),
     planned("database", "A hydrodynamic database."),

@@ -24,5 +24,5 @@ pub use json_schema::json_schema;
 pub use keys::KEYS;
 pub use study::{
     Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, SteadyLoad,
-    Study, StudyLimit, Subject, TiltCondition,
+    StoredInstants, Study, StudyLimit, Subject, TiltCondition,
 };

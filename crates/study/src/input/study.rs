@@ -138,6 +138,19 @@ pub struct CycleDuty {
     pub maximum_cycles: usize,
     /// The orbit is closed when two cycles differ by less, over the radial clearance.
     pub closure_tolerance: f64,
+    /// Instants of which `results.h5` holds the fields.
+    pub stored_fields: StoredInstants,
+}
+
+/// Instants of a cycle of which `results.h5` holds the fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StoredInstants {
+    /// Every crank angle of the results.
+    All,
+    /// At most 72 evenly spaced ones.
+    Frames,
+    /// None.
+    None,
 }
 
 /// How the film is modelled.

@@ -6,6 +6,7 @@
 use super::{OutputError, ResultWriter};
 use crate::results::{Body, CycleResults, FieldSnapshot, Results, degrees, status_name};
 use sommerfeld_bearing::CyclePoint;
+use sommerfeld_film::FeedFlow;
 
 /// Writes `cycle.csv`: one row per crank angle of a load cycle.
 #[derive(Debug, Clone, Copy)]
@@ -111,26 +112,41 @@ const CYCLE_COLUMNS: &[CycleColumn] = &[
     }),
 ];
 
+/// Headers and values of the columns of the cycle table that hold numbers.
+pub(super) fn cycle_columns(cycle: &CycleResults) -> Vec<(String, Vec<f64>)> {
+    let points = &cycle.orbit.points;
+    let clearance = cycle.bearing.radial_clearance;
+    let fixed = CYCLE_COLUMNS.iter().map(|(name, value)| {
+        let values = points.iter().map(|point| value(point, clearance));
+        ((*name).to_owned(), values.collect())
+    });
+    let feeds = cycle.feed_flows.iter().map(Vec::len).max().unwrap_or(0);
+    let flows = (0..feeds).map(|feed| {
+        let flow = |index| {
+            cycle
+                .feed_flows
+                .get(index)
+                .and_then(|row: &Vec<FeedFlow>| row.get(feed))
+        };
+        let values = (0..points.len()).map(|index| flow(index).map_or(f64::NAN, |feed| feed.flow));
+        (format!("feed_{}_flow[m3/s]", feed + 1), values.collect())
+    });
+    fixed.chain(flows).collect()
+}
+
 /// The table of a load cycle as CSV: the fixed columns, the flow of each feed, the status.
 ///
 /// # Errors
 /// [`OutputError::Content`].
 pub fn cycle_table(cycle: &CycleResults) -> Result<Vec<u8>, OutputError> {
-    let feeds = cycle.feed_flows.iter().map(Vec::len).max().unwrap_or(0);
+    let columns = cycle_columns(cycle);
     let mut table = Table::new(CycleTable.file_name());
-    let headers = CYCLE_COLUMNS.iter().map(|(name, _)| (*name).to_owned());
-    let feed_headers = (1..=feeds).map(|number| format!("feed_{number}_flow[m3/s]"));
-    table.row(headers.chain(feed_headers).chain(["status".to_owned()]))?;
+    let headers = columns.iter().map(|(name, _)| name.as_str());
+    table.row(headers.chain(["status"]))?;
     for (index, point) in cycle.orbit.points.iter().enumerate() {
-        let fixed = CYCLE_COLUMNS
-            .iter()
-            .map(|(_, value)| number(value(point, cycle.bearing.radial_clearance)));
-        let flows = (0..feeds).map(|feed| {
-            let flow = cycle.feed_flows.get(index).and_then(|row| row.get(feed));
-            number(flow.map_or(f64::NAN, |feed| feed.flow))
-        });
+        let numbers = columns.iter().map(|(_, values)| number(values[index]));
         let status = status_name(point.outcome).to_owned();
-        table.row(fixed.chain(flows).chain([status]))?;
+        table.row(numbers.chain([status]))?;
     }
     table.finish()
 }

@@ -1,22 +1,40 @@
 //! Results as files: one writer per format, iterated from one list.
 
 mod csv;
+mod hdf5;
 mod html;
 mod json;
+mod vtk;
 
 pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
+pub use hdf5::Hdf5Results;
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
+pub use vtk::ParaView;
 
 use crate::results::Results;
+use crate::spool::FieldSpool;
 use std::fs;
-use std::io;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// One format of results.
+/// Which instants of a cycle are stored as fields.
+#[derive(Debug, Clone, Copy)]
+pub enum StoredFields<'a> {
+    /// Every crank angle, from the disk.
+    Spool(&'a FieldSpool),
+    /// The frames of the results.
+    Frames,
+    /// None.
+    None,
+}
+
+/// One format of results: a file whose content fits in the memory (`content`), or whatever `write`
+/// makes of it.
 pub trait ResultWriter: Sync {
-    /// Name of the file this format is written to, without directory.
+    /// Name of the file this format is written to, without directory; of several files, that of the
+    /// one to open.
     fn file_name(&self) -> &'static str;
 
     /// What the file holds, in one line, for help texts.
@@ -26,12 +44,40 @@ pub trait ResultWriter: Sync {
     ///
     /// # Errors
     /// [`OutputError::Content`] if the content cannot be built.
-    fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError>;
+    fn content(&self, _results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
+        Ok(None)
+    }
+
+    /// Writes the format into `directory` and returns its files in the order of writing: none if
+    /// these results have nothing for it.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    fn write(
+        &self,
+        results: &Results,
+        _stored: StoredFields<'_>,
+        directory: &Path,
+    ) -> Result<Vec<PathBuf>, OutputError> {
+        let Some(content) = self.content(results)? else {
+            return Ok(Vec::new());
+        };
+        let path = directory.join(self.file_name());
+        replace_file(&path, &content)?;
+        Ok(vec![path])
+    }
 }
 
 /// Every format, in the order in which they are written: the summary last, so that a directory
 /// that holds it holds everything.
-pub const WRITERS: &[&dyn ResultWriter] = &[&CycleTable, &FieldTable, &HtmlReport, &SummaryJson];
+pub const WRITERS: &[&dyn ResultWriter] = &[
+    &CycleTable,
+    &FieldTable,
+    &Hdf5Results,
+    &ParaView,
+    &HtmlReport,
+    &SummaryJson,
+];
 
 /// Results that could not be written.
 #[derive(Debug, Error)]
@@ -76,12 +122,25 @@ pub fn prepare_directory(directory: &Path) -> Result<(), OutputError> {
         .map_err(failed("write into the directory", directory))
 }
 
+/// Writes every format these results have into `directory`, with the frames of a cycle as its
+/// fields: [`write_stored`].
+///
+/// # Errors
+/// As [`write_stored`].
+pub fn write_all(results: &Results, directory: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    write_stored(results, StoredFields::Frames, directory)
+}
+
 /// Writes every format these results have into `directory`, which is created if missing, and
 /// returns the files in the order of writing. Other files in the directory are left alone.
 ///
 /// # Errors
 /// [`OutputError`] at the first file that fails; files written before stay.
-pub fn write_all(results: &Results, directory: &Path) -> Result<Vec<PathBuf>, OutputError> {
+pub fn write_stored(
+    results: &Results,
+    stored: StoredFields<'_>,
+    directory: &Path,
+) -> Result<Vec<PathBuf>, OutputError> {
     fs::create_dir_all(directory).map_err(|source| OutputError::Disk {
         action: "create the directory",
         path: directory.to_path_buf(),
@@ -89,11 +148,7 @@ pub fn write_all(results: &Results, directory: &Path) -> Result<Vec<PathBuf>, Ou
     })?;
     let mut files = Vec::new();
     for writer in WRITERS {
-        if let Some(content) = writer.content(results)? {
-            let path = directory.join(writer.file_name());
-            replace_file(&path, &content)?;
-            files.push(path);
-        }
+        files.extend(writer.write(results, stored, directory)?);
     }
     Ok(files)
 }
@@ -104,10 +159,18 @@ pub fn write_all(results: &Results, directory: &Path) -> Result<Vec<PathBuf>, Ou
 /// # Errors
 /// [`OutputError::Disk`].
 pub fn replace_file(path: &Path, content: &[u8]) -> Result<(), OutputError> {
+    replace_with(path, |file| file.write_all(content))
+}
+
+/// The same with a file that is written piece by piece.
+fn replace_with(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&fs::File>) -> io::Result<()>,
+) -> Result<(), OutputError> {
     let mut name = path.file_name().unwrap_or_default().to_os_string();
     name.push(".part");
     let temporary = path.with_file_name(name);
-    write_through(&temporary, content)
+    write_through(&temporary, write)
         .and_then(|()| fs::rename(&temporary, path))
         .map_err(|source| {
             // The first failure is the one to report, whether or not the remains can be removed.
@@ -121,9 +184,15 @@ pub fn replace_file(path: &Path, content: &[u8]) -> Result<(), OutputError> {
 }
 
 /// Writes a file and waits until it is on the disk: only then may the rename make it the result.
-fn write_through(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = fs::File::create(path)?;
-    io::Write::write_all(&mut file, content)?;
+fn write_through(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&fs::File>) -> io::Result<()>,
+) -> io::Result<()> {
+    let file = fs::File::create(path)?;
+    let mut buffer = BufWriter::new(&file);
+    write(&mut buffer)?;
+    buffer.flush()?;
+    drop(buffer);
     file.sync_all()
 }
 

@@ -5,6 +5,7 @@ use super::{ProgressCallback, conditions, film_of, note_outcome};
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, CycleResults, Header};
+use crate::spool::FieldSpool;
 use sommerfeld_bearing::{CyclePoint, JournalOrbit, OrbitSettings, Progress, journal_orbit};
 use sommerfeld_film::{FeedFlow, FilmError, FilmForce, JournalState, Outcome, Step};
 use std::ops::ControlFlow;
@@ -14,6 +15,7 @@ pub(super) fn solve_cycle(
     duty: &CycleDuty,
     settings: &FilmSettings,
     header: &mut Header,
+    spool: Option<&mut FieldSpool>,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Body, FilmError> {
     let mut film = film_of(case, settings)?;
@@ -50,7 +52,7 @@ pub(super) fn solve_cycle(
         ..OrbitSettings::default()
     };
     let points = orbit_settings.points_per_cycle(&duty.cycle);
-    let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure);
+    let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure, spool);
     let mut watch = CycleWatch::new(duty.maximum_cycles, fields);
     let mut film = film_of(case, settings)?;
     let orbit = journal_orbit(
@@ -80,15 +82,15 @@ pub(super) fn solve_cycle(
 }
 
 /// Copies from the running orbit what its points do not hold, and passes its progress on.
-struct CycleWatch {
+struct CycleWatch<'a> {
     expected_cycles: usize,
-    fields: FieldRecorder,
+    fields: FieldRecorder<'a>,
     feed_flows: Vec<Vec<FeedFlow>>,
     stopped: bool,
 }
 
-impl CycleWatch {
-    fn new(cycle_limit: usize, fields: FieldRecorder) -> Self {
+impl<'a> CycleWatch<'a> {
+    fn new(cycle_limit: usize, fields: FieldRecorder<'a>) -> Self {
         /// Cycles that most orbits take to close: for the estimate of the time left.
         const USUAL_CYCLES: usize = 4;
         Self {
@@ -107,7 +109,9 @@ impl CycleWatch {
         progress: &mut ProgressCallback<'_>,
     ) -> ControlFlow<()> {
         if let Some(field) = film.field() {
-            self.fields.see(stage, point, &field);
+            if !self.fields.see(stage, point, &field) {
+                return ControlFlow::Break(());
+            }
         }
         self.feed_flows.push(film.feed_flows().to_vec());
         let label = format!("cycle {}", stage.cycle);

@@ -5,12 +5,15 @@ mod inputs;
 mod record;
 mod steady;
 
-use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};
+use crate::input::{
+    BearingCase, Duty, FilmModel, FilmSettings, StoredInstants, Study, Subject, TiltCondition,
+};
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
-use crate::output::{OutputError, prepare_directory, write_all};
+use crate::output::{OutputError, StoredFields, prepare_directory, write_stored};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, DimensionlessResults, Header, Results};
+use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use inputs::input_rows;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
@@ -59,8 +62,26 @@ pub fn run(
 ) -> Result<RunSummary, RunError> {
     // Better told before a long run than after it.
     prepare_directory(directory)?;
-    let results = solve(study, progress)?;
-    let files = write_all(&results, directory)?;
+    let failed = |source| OutputError::Disk {
+        action: "store fields in the directory",
+        path: directory.to_path_buf(),
+        source,
+    };
+    let instants = stored_instants(study);
+    let mut spool = match instants {
+        StoredInstants::All => Some(FieldSpool::create(directory).map_err(failed)?),
+        StoredInstants::Frames | StoredInstants::None => None,
+    };
+    let results = solve_into(study, spool.as_mut(), progress)?;
+    if let Some(error) = spool.as_mut().and_then(FieldSpool::failure) {
+        return Err(failed(error).into());
+    }
+    let stored = match (&spool, instants) {
+        (Some(spool), _) => StoredFields::Spool(spool),
+        (None, StoredInstants::None) => StoredFields::None,
+        (None, _) => StoredFields::Frames,
+    };
+    let files = write_stored(&results, stored, directory)?;
     Ok(RunSummary { results, files })
 }
 
@@ -69,6 +90,23 @@ pub fn run(
 /// # Errors
 /// [`FilmError`] where the film refuses what the study asks of it.
 pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Results, FilmError> {
+    solve_into(study, None, progress)
+}
+
+/// The instants whose fields a study stores.
+fn stored_instants(study: &Study) -> StoredInstants {
+    match study.bearing_case().map(|case| &case.duty) {
+        Some(Duty::Cycle(duty)) if study.film.model.is_field() => duty.stored_fields,
+        _ => StoredInstants::None,
+    }
+}
+
+/// Runs `study` with the fields of every crank angle into a spool, if there is one.
+fn solve_into(
+    study: &Study,
+    spool: Option<&mut FieldSpool>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Results, FilmError> {
     let start = Instant::now();
     let mut header = header(study);
     let body = match &study.subject {
@@ -76,7 +114,9 @@ pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Resul
         Subject::Bearing(case) => match &case.duty {
             Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
             Duty::Load(load) => solve_load(case, load, study, &mut header)?,
-            Duty::Cycle(duty) => solve_cycle(case, duty, &study.film, &mut header, progress)?,
+            Duty::Cycle(duty) => {
+                solve_cycle(case, duty, &study.film, &mut header, spool, progress)?
+            }
         },
     };
     header.wall_time = start.elapsed().as_secs_f64();

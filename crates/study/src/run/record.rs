@@ -12,12 +12,13 @@
 //! evenly spaced; the indicator of a full film is interpolated like a field.
 
 use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot, MOST_FRAMES};
+use crate::spool::FieldSpool;
 use sommerfeld_bearing::{CyclePoint, Progress};
 use sommerfeld_film::FilmField;
 use std::f64::consts::TAU;
 
-/// Fills [`CycleFields`] while an orbit runs.
-pub(super) struct FieldRecorder {
+/// Fills [`CycleFields`] while an orbit runs, and the fields of every crank angle on the disk.
+pub(super) struct FieldRecorder<'a> {
     /// Output points per cycle.
     points: usize,
     /// Gauge pressure above which a full cell carries, Pa.
@@ -26,6 +27,7 @@ pub(super) struct FieldRecorder {
     /// periodic orbit and makes way for the first one.
     stage: (usize, bool),
     record: Option<Record>,
+    spool: Option<&'a mut FieldSpool>,
 }
 
 /// The record of one cycle.
@@ -37,24 +39,37 @@ struct Record {
     on_journal: SurfaceRecord,
 }
 
-impl FieldRecorder {
+impl<'a> FieldRecorder<'a> {
     /// For cycles of so many output points; a full film carries above the cavitation pressure, Pa.
-    pub(super) fn new(points: usize, cavitation_pressure: f64) -> Self {
+    pub(super) fn new(
+        points: usize,
+        cavitation_pressure: f64,
+        spool: Option<&'a mut FieldSpool>,
+    ) -> Self {
         Self {
             points,
             cavitation_pressure,
             stage: (0, false),
             record: None,
+            spool,
         }
     }
 
-    /// Takes one output point.
-    pub(super) fn see(&mut self, progress: Progress, point: &CyclePoint, field: &FilmField<'_>) {
+    /// Takes one output point; `false` if the disk failed.
+    pub(super) fn see(
+        &mut self,
+        progress: Progress,
+        point: &CyclePoint,
+        field: &FilmField<'_>,
+    ) -> bool {
         let index = (progress.fraction * self.points as f64).round() as usize;
         let stage = (progress.cycle, index == 0);
         if stage != self.stage {
             self.stage = stage;
             self.record = None;
+            if let Some(spool) = &mut self.spool {
+                spool.restart();
+            }
         }
         let snapshot = || CycleField {
             crank_angle: point.crank_angle,
@@ -79,6 +94,10 @@ impl FieldRecorder {
         record.on_shell.see(field, point.state.shell_angle, least);
         let turned = point.state.journal_angle;
         record.on_journal.see(field, turned, least);
+        match &mut self.spool {
+            Some(spool) => spool.push(point.crank_angle, field),
+            None => true,
+        }
     }
 
     /// The fields of the last cycle; `None` if the film showed none.
@@ -198,7 +217,7 @@ mod tests {
 
     /// The record of a wave of pressure 1 + cos(angle - speed turned), seen degree by degree.
     fn run(speed: f64, journal_speed: f64, cycles: usize) -> CycleFields {
-        let mut recorder = FieldRecorder::new(POINTS, 0.5);
+        let mut recorder = FieldRecorder::new(POINTS, 0.5, None);
         for cycle in 1..=cycles {
             for index in usize::from(cycle > 1)..=POINTS {
                 let turned = (cycle - 1) as f64 * TAU + index as f64 * TAU / POINTS as f64;

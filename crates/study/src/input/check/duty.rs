@@ -4,7 +4,9 @@ use super::Checker;
 use crate::input::files::{TABLE_CAP, read_text};
 use crate::input::load_file::{CycleSettings, read_load_table};
 use crate::input::schema::Mode;
-use crate::input::study::{BearingCase, CycleDuty, Duty, SteadyLoad, Subject, TiltCondition};
+use crate::input::study::{
+    BearingCase, CycleDuty, Duty, SteadyLoad, StoredInstants, Subject, TiltCondition,
+};
 use crate::input::values::Value;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
@@ -235,6 +237,11 @@ impl Checker<'_> {
             crank_step: crank_step?,
             maximum_cycles: usize::try_from(maximum_cycles).ok()?,
             closure_tolerance,
+            stored_fields: match self.text("output.fields")?.as_str() {
+                "frames" => StoredInstants::Frames,
+                "none" => StoredInstants::None,
+                _ => StoredInstants::All,
+            },
         })
     }
 
