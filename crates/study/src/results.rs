@@ -108,8 +108,43 @@ pub struct CycleResults {
     pub orbit: JournalOrbit,
     /// Flow through each feed at each point of the orbit; empty if not recorded.
     pub feed_flows: Vec<Vec<FeedFlow>>,
-    /// The fields at one crank angle, usually that of the thinnest film.
-    pub worst_film: Option<CycleField>,
+    /// The fields over the last cycle, if the film model has any.
+    pub fields: Option<CycleFields>,
+}
+
+/// The fields over the last cycle: single instants, and what each point of a surface has seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleFields {
+    /// Evenly spaced crank angles over the period, ascending, at most [`MOST_FRAMES`].
+    pub frames: Vec<CycleField>,
+    /// Where the film is thinnest.
+    pub worst: CycleField,
+    /// What each point of the shell has seen.
+    pub on_shell: AccumulatedMap,
+    /// What each point of the journal has seen, angles from +X of the journal.
+    pub on_journal: AccumulatedMap,
+}
+
+/// Instants of a cycle that are kept for the report and for a look at the fields.
+pub const MOST_FRAMES: usize = 72;
+
+/// What the points of one surface have seen over a cycle: point `i` around, `j` along the axis, at
+/// `i * axial.len() + j`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AccumulatedMap {
+    /// Angles around, rad, from +X of the surface.
+    pub angles: Vec<f64>,
+    /// Places along the axis, m, from the mid-plane.
+    pub axial: Vec<f64>,
+    /// Smallest film thickness, m.
+    pub minimum_film_thickness: Vec<f64>,
+    /// Largest gauge pressure, Pa.
+    pub maximum_pressure: Vec<f64>,
+    /// Half the difference of the largest and the smallest pressure, Pa: the amplitude that tires
+    /// the surface.
+    pub pressure_amplitude: Vec<f64>,
+    /// Share of the cycle in which the point had a full film.
+    pub full_film_share: Vec<f64>,
 }
 
 /// The fields at one crank angle.

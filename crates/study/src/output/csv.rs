@@ -44,7 +44,7 @@ impl ResultWriter for FieldTable {
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
         let field = match &results.body {
             Body::Steady(steady) => steady.field.as_ref(),
-            Body::LoadCycle(cycle) => cycle.worst_film.as_ref().map(|worst| &worst.field),
+            Body::LoadCycle(cycle) => cycle.fields.as_ref().map(|fields| &fields.worst.field),
             Body::Dimensionless(_) => None,
         };
         field.map(field_table).transpose()

@@ -92,6 +92,8 @@ pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Resul
         })
         .collect();
     results.check_limits(&limits);
+    let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
+    results.header.messages.extend(beyond_laminar);
     Ok(results)
 }
 
