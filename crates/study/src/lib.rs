@@ -6,6 +6,7 @@ pub mod limits;
 pub mod models;
 pub mod output;
 pub mod progress;
+pub mod regime;
 pub mod report;
 pub mod results;
 pub mod run;

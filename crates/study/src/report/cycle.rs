@@ -1,32 +1,50 @@
 //! The report of a load cycle: key figures, orbit, curves over crank angle, maps, convergence.
 
+use super::chart::{Chart, Mark, Series};
+use super::film::{self, in_film};
 use super::format::{MICROMETRE, Unit, Units, angle, significant};
-use super::page::{Card, Figure, Page, badge, checks, error};
-use super::{cycle_tables, figures};
+use super::page::{Card, Figure, Page, Section, badge, checks, error, exact, subject};
+use super::spark::spark;
+use super::{cycle_tables, figures, surfaces};
 use crate::limits::Quantity;
-use crate::results::{CycleField, CycleResults, Header, degrees, magnitude, specific_load};
+use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use serde_json::{Value, json};
 use sommerfeld_bearing::CyclePoint;
+use sommerfeld_film::Extreme;
 
 /// Fills cards, figures and tables; returns the data of the figures.
 pub(super) fn fill(page: &mut Page, header: &Header, cycle: &CycleResults) -> Value {
     let units = units(cycle);
+    page.subject = subject(&cycle.bearing);
     page.cards = cards(header, cycle, &units);
     page.tables = cycle_tables::all(header, cycle, &units);
     if cycle.orbit.points.is_empty() {
         return json!({});
     }
-    page.figures = figures_of(cycle);
-    let worst = cycle
-        .fields
-        .as_ref()
-        .and_then(|fields| Some((&fields.worst, nearest(cycle, fields.worst.crank_angle)?)));
+    let fields = cycle.fields.as_ref();
+    let instants = fields.map_or_else(Vec::new, |fields| film::instants(cycle, fields));
+    page.film = instants
+        .first()
+        .map(|first| film::part(&cycle.bearing, first.field, instants.len()));
+    page.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
+    page.sections.extend(fields.map(|fields| {
+        Section {
+            id: "surfaces",
+            title: "What the surfaces have seen",
+            lead:
+                "Every point of shell and journal over the whole cycle: pressure tires it, a thin \
+               film wears it. The journal turns under the load, so that its maps differ from those \
+               of the shell."
+                    .to_owned(),
+            figures: surfaces::figures(cycle, fields, &units),
+        }
+    }));
     json!({
         "units": figures::unit_symbols(&units),
         "cycle": figures::cycle_data(header, cycle, &units),
-        "field": worst.map(|(worst, point)| {
-            figures::field_data(&worst.field, &cycle.bearing, &point.state, &point.summary, &units)
-        }),
+        "charts": charts(cycle, &units),
+        "film": film::film_data(&cycle.bearing, &instants, &units),
+        "surfaces": fields.map(|fields| surfaces::surface_data(&cycle.bearing, fields, &units)),
     })
 }
 
@@ -50,114 +68,152 @@ pub(super) fn side_flow(point: &CyclePoint) -> f64 {
     point.summary.side_flow[0] + point.summary.side_flow[1]
 }
 
-/// The point of the orbit at a crank angle, rad.
-fn nearest(cycle: &CycleResults, crank_angle: f64) -> Option<&CyclePoint> {
-    cycle.largest(|point| -(point.crank_angle - crank_angle).abs())
+/// What a card shows of the points of a cycle.
+struct CardSource<'a> {
+    label: &'static str,
+    key: &'static str,
+    value: &'a dyn Fn(&CyclePoint) -> f64,
+    unit: Unit,
+    limited: Option<Quantity>,
 }
 
-/// A card for the value of one point: its badge is the point's own failure before the run's.
-fn point_card(
-    header: &Header,
-    label: &'static str,
-    point: Option<&CyclePoint>,
-    value: impl Fn(&CyclePoint) -> f64,
-    unit: Unit,
-) -> Card {
-    Card {
-        label,
-        value: unit.number(point.map_or(f64::NAN, &value)),
-        unit: unit.symbol,
-        detail: point.map_or_else(String::new, |point| {
-            format!("at crank angle {}", angle(degrees(point.crank_angle)))
-        }),
-        badge: point
-            .and_then(|point| badge(point.outcome))
-            .or(badge(header.status)),
-        ..Card::default()
+impl CardSource<'_> {
+    /// The card without its number.
+    fn card(&self, header: &Header, cycle: &CycleResults, at: Option<f64>) -> Card {
+        let points = &cycle.orbit.points;
+        let places: Vec<f64> = points.iter().map(|point| point.crank_angle).collect();
+        let values: Vec<f64> = points.iter().map(self.value).collect();
+        let limit = header
+            .limits
+            .iter()
+            .find(|check| Some(check.limit.quantity) == self.limited)
+            .map(|check| check.limit.value);
+        Card {
+            label: self.label,
+            key: self.key,
+            unit: self.unit.symbol,
+            error: error(header, self.key, self.unit),
+            checks: self
+                .limited
+                .map_or_else(Vec::new, |quantity| checks(header, quantity, self.unit)),
+            spark: spark(&places, &values, at, limit),
+            ..Card::default()
+        }
+    }
+
+    /// A card for the value of one point: its badge is the point's own failure before the run's.
+    fn of_point(
+        &self,
+        header: &Header,
+        cycle: &CycleResults,
+        point: Option<&CyclePoint>,
+        place: impl Fn(&CyclePoint) -> String,
+    ) -> Card {
+        let value = point.map_or(f64::NAN, self.value);
+        Card {
+            value: self.unit.number(value),
+            exact: exact(value),
+            detail: point.map_or_else(String::new, |point| {
+                let crank = angle(degrees(point.crank_angle));
+                format!("crank angle {crank}{}", place(point))
+            }),
+            badge: point
+                .and_then(|point| badge(point.outcome))
+                .or(badge(header.status)),
+            ..self.card(header, cycle, point.map(|point| point.crank_angle))
+        }
+    }
+
+    /// A card for the mean over the cycle.
+    fn of_mean(&self, header: &Header, cycle: &CycleResults, detail: String) -> Card {
+        let value = cycle.mean(self.value);
+        Card {
+            value: self.unit.number(value),
+            exact: exact(value),
+            detail,
+            badge: badge(header.status),
+            ..self.card(header, cycle, None)
+        }
     }
 }
 
 fn cards(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<Card> {
-    let mean_card = |label, value: f64, unit: Unit, key, detail| Card {
+    let source = |label, key, value, unit, limited| CardSource {
         label,
-        value: unit.number(value),
-        unit: unit.symbol,
-        error: error(header, key, unit),
-        detail,
-        badge: badge(header.status),
-        ..Card::default()
+        key,
+        value,
+        unit,
+        limited,
     };
-    let thickness = Card {
-        error: error(header, "minimum_film_thickness_m", MICROMETRE),
-        checks: checks(header, Quantity::MinimumFilmThickness, MICROMETRE),
-        ..point_card(
-            header,
-            "Minimum film thickness",
-            cycle.minimum_film_thickness(),
-            |p| p.summary.minimum_film_thickness.value,
-            MICROMETRE,
-        )
-    };
-    let pressure = Card {
-        error: error(header, "peak_film_pressure_pa", units.pressure),
-        checks: checks(header, Quantity::PeakFilmPressure, units.pressure),
-        ..point_card(
-            header,
-            "Peak film pressure",
-            cycle.peak_film_pressure(),
-            |p| p.summary.peak_film_pressure.value,
-            units.pressure,
-        )
-    };
-    let load = Card {
-        checks: checks(header, Quantity::MaximumSpecificLoad, units.pressure),
-        ..point_card(
-            header,
-            "Maximum specific load F/(B D)",
-            cycle.maximum_load(),
-            |p| specific_load(&cycle.bearing, p.load),
-            units.pressure,
-        )
-    };
-    let power = cycle.mean(|p| p.summary.power_loss());
-    let friction = cycle.mean(|p| p.summary.friction_power);
-    let squeeze = cycle.mean(|p| p.summary.squeeze_power);
+    let bearing = &cycle.bearing;
+    let at = |extreme: &Extreme| format!(", {}", in_film(extreme, bearing.width));
     let parts = format!(
         "friction {}, squeeze {}",
-        units.power.show(friction),
-        units.power.show(squeeze)
+        units.power.show(cycle.mean(|p| p.summary.friction_power)),
+        units.power.show(cycle.mean(|p| p.summary.squeeze_power))
     );
+    let ends = [0, 1].map(|end| units.flow.number(cycle.mean(|p| p.summary.side_flow[end])));
     let side = cycle.mean(side_flow);
     let feed = cycle.mean(|p| p.summary.feed_flow);
-    let flow = units.flow;
     vec![
-        thickness,
-        pressure,
-        load,
-        Card {
-            checks: checks(header, Quantity::PowerLoss, units.power),
-            ..mean_card(
-                "Mean power loss",
-                power,
-                units.power,
-                "mean_power_loss_w",
-                parts,
-            )
-        },
-        mean_card(
+        source(
+            "Minimum film thickness",
+            "minimum_film_thickness_m",
+            &|p: &CyclePoint| p.summary.minimum_film_thickness.value,
+            MICROMETRE,
+            Some(Quantity::MinimumFilmThickness),
+        )
+        .of_point(header, cycle, cycle.minimum_film_thickness(), |p| {
+            at(&p.summary.minimum_film_thickness)
+        }),
+        source(
+            "Peak film pressure",
+            "peak_film_pressure_pa",
+            &|p: &CyclePoint| p.summary.peak_film_pressure.value,
+            units.pressure,
+            Some(Quantity::PeakFilmPressure),
+        )
+        .of_point(header, cycle, cycle.peak_film_pressure(), |p| {
+            at(&p.summary.peak_film_pressure)
+        }),
+        source(
+            "Maximum specific load F/(B D)",
+            "maximum_specific_load_pa",
+            &|p: &CyclePoint| specific_load(bearing, p.load),
+            units.pressure,
+            Some(Quantity::MaximumSpecificLoad),
+        )
+        .of_point(header, cycle, cycle.maximum_load(), |p| {
+            format!(", load {}", units.force.show(magnitude(p.load)))
+        }),
+        source(
+            "Mean power loss",
+            "mean_power_loss_w",
+            &|p: &CyclePoint| p.summary.power_loss(),
+            units.power,
+            Some(Quantity::PowerLoss),
+        )
+        .of_mean(header, cycle, parts),
+        source(
             "Mean side flow",
-            side,
-            flow,
             "mean_side_flow_m3_s",
-            per_minute(side),
+            &side_flow,
+            units.flow,
+            None,
+        )
+        .of_mean(
+            header,
+            cycle,
+            format!("{}; front {}, rear {}", per_minute(side), ends[0], ends[1]),
         ),
-        mean_card(
+        source(
             "Mean feed flow",
-            feed,
-            flow,
             "mean_feed_flow_m3_s",
-            per_minute(feed),
-        ),
+            &|p: &CyclePoint| p.summary.feed_flow,
+            units.flow,
+            None,
+        )
+        .of_mean(header, cycle, per_minute(feed)),
     ]
 }
 
@@ -165,36 +221,75 @@ fn per_minute(flow: f64) -> String {
     format!("{} l/min", significant(flow * 6e4))
 }
 
-fn figures_of(cycle: &CycleResults) -> Vec<Figure> {
-    let failed = if cycle.not_converged().next().is_some() {
+fn failed_note(cycle: &CycleResults) -> &'static str {
+    if cycle.not_converged().next().is_some() {
         " Crosses: steps that did not converge."
     } else {
         ""
-    };
-    let figure = |kind, title, caption: &str| Figure {
+    }
+}
+
+fn figure(kind: &'static str, title: &'static str, caption: impl Into<String>) -> Figure {
+    Figure {
         kind,
         title,
-        caption: caption.to_owned(),
+        caption: caption.into(),
         size: "",
-    };
-    let mut list = vec![
-        figure(
-            "load-polar",
-            "Load on the journal",
-            "Tip of the load vector in the shell frame over one period, with its crank angles.",
-        ),
-        figure(
-            "orbit",
-            "Journal orbit",
-            &format!(
-                "Path of the journal centre over the radial clearance. On the outer circle the \
-                 surfaces would touch.{failed}"
+    }
+}
+
+fn load_and_orbit(cycle: &CycleResults) -> Section {
+    let failed = failed_note(cycle);
+    Section {
+        id: "orbit",
+        title: "Load and journal orbit",
+        lead:
+            "+X to the right, +Y up; angles count from +X in the sense of rotation. Rings: crank \
+               angles, named; dots every 10°, wide apart where things change fast."
+                .to_owned(),
+        figures: vec![
+            figure(
+                "load-polar",
+                "Load in the shell frame",
+                "Tip of the load vector on the journal, as the shell sees it. Colour: journal \
+                 speed relative to the shell.",
             ),
-        ),
+            figure(
+                "load-polar-journal",
+                "Load in the journal frame",
+                "The same vector turned back by the journal angle: where the load presses the \
+                 journal. The side it never reaches is the side for an oil hole.",
+            ),
+            figure(
+                "orbit",
+                "Journal orbit",
+                format!(
+                    "Path of the journal centre over the radial clearance. On the outer circle \
+                     the surfaces would touch.{failed}"
+                ),
+            ),
+            Figure {
+                size: "stack",
+                ..figure(
+                    "eccentricity",
+                    "Relative eccentricity",
+                    format!(
+                        "Distance of the centres in the mid-plane over the radial clearance; 1 \
+                         is contact of an untilted journal.{failed}"
+                    ),
+                )
+            },
+        ],
+    }
+}
+
+fn over_the_cycle(cycle: &CycleResults) -> Section {
+    let failed = failed_note(cycle);
+    let mut figures = vec![
         figure(
             "thickness",
             "Minimum film thickness",
-            &format!("Thinnest film anywhere in the bearing at each crank angle.{failed}"),
+            format!("Thinnest film anywhere in the bearing at each crank angle.{failed}"),
         ),
         figure(
             "pressure",
@@ -202,81 +297,133 @@ fn figures_of(cycle: &CycleResults) -> Vec<Figure> {
             "Highest film pressure (gauge) anywhere in the bearing at each crank angle.",
         ),
         figure(
+            "place-around",
+            "Where around the shell",
+            "Angles of the thinnest film and of the peak pressure. The peak runs ahead of the \
+             thinnest film, and both jump where the journal crosses the clearance.",
+        ),
+    ];
+    if moves_along(cycle) {
+        figures.push(figure(
+            "place-along",
+            "Where along the axis",
+            "Axial places of the thinnest film and of the peak pressure from the mid-plane: \
+             front is negative, rear positive. The edges are where a tilted journal runs thin.",
+        ));
+    }
+    figures.extend([
+        figure(
             "power",
             "Power loss",
             "Power lost in the film: friction of the turning surfaces and squeeze of the moving \
-             journal.",
+             journal. A negative squeeze is work that the film gives back.",
         ),
         figure(
             "flow",
             "Oil flow",
-            "Oil that leaves at both ends, that enters through feeds, and that the film stores. \
-             Feed = side + storage where the closure conserves oil.",
+            "Oil that leaves at the front (z = −B/2) and at the rear (z = +B/2), that enters \
+             through feeds, and that the film stores. Feed = side + storage where the closure \
+             conserves oil.",
         ),
-        figure(
-            "eccentricity",
-            "Relative eccentricity",
-            &format!("Distance of the centres over the radial clearance.{failed}"),
-        ),
-        figure(
-            "load",
-            "Load",
-            "Components of the load on the journal in the shell frame, and its magnitude.",
-        ),
-    ];
-    if cycle
-        .orbit
-        .points
-        .iter()
-        .any(|p| p.state.tilt != [0.0, 0.0])
-    {
-        list.push(figure(
+    ]);
+    if has_feed_flows(cycle) {
+        figures.push(figure(
+            "feed-flows",
+            "Flow of each groove and hole",
+            "Into the film; negative where the film pushes oil back.",
+        ));
+    }
+    figures.push(figure(
+        "load",
+        "Load",
+        "Components of the load on the journal in the shell frame, and its magnitude.",
+    ));
+    if is_tilted(cycle) {
+        figures.push(figure(
             "tilt",
             "Tilt",
             "Rotation vector of the journal axis against the shell axis.",
         ));
     }
-    if let Some(fields) = &cycle.fields {
-        list.extend(maps(cycle, &fields.worst));
+    // A figure alone in its row takes the whole of it.
+    if figures.len() % 2 == 1 {
+        if let Some(last) = figures.last_mut() {
+            last.size = "wide";
+        }
     }
-    list
+    Section {
+        id: "cycle",
+        title: "Over the cycle",
+        lead: String::new(),
+        figures,
+    }
 }
 
-fn maps(cycle: &CycleResults, worst: &CycleField) -> [Figure; 2] {
-    let is_at = |point: Option<&CyclePoint>| {
-        point.is_some_and(|point| (point.crank_angle - worst.crank_angle).abs() < 1e-9)
-    };
-    let instant = angle(degrees(worst.crank_angle));
-    let reason = if is_at(cycle.minimum_film_thickness()) {
-        ", where the film is thinnest"
-    } else if is_at(cycle.peak_film_pressure()) {
-        ", where the film pressure peaks"
-    } else {
-        ""
-    };
-    map_figures(&format!("At crank angle {instant}{reason}. "))
+fn is_tilted(cycle: &CycleResults) -> bool {
+    let mut points = cycle.orbit.points.iter();
+    points.any(|point| point.state.tilt != [0.0, 0.0])
 }
 
-/// The two maps of a film, with an opening of their captions that says when.
-pub(super) fn map_figures(when: &str) -> [Figure; 2] {
-    [
-        Figure {
-            kind: "pressure-map",
-            title: "Film pressure",
-            caption: format!(
-                "{when}Bearing surface unrolled, cell by cell as computed, angle from +X of the \
-                 shell frame. Ring: peak pressure; cross: thinnest film; outlines: feeds."
-            ),
-            size: "wide",
-        },
-        Figure {
-            kind: "fraction-map",
-            title: "Film fraction",
-            caption: format!(
-                "{when}1 where oil fills the gap, below 1 where the film is ruptured. \
-                 Cross: thinnest film; outlines: feeds."
-            ),
-            size: "wide",
-        },
-    ]
+/// Whether the extremes leave the mid-plane.
+fn moves_along(cycle: &CycleResults) -> bool {
+    cycle.orbit.points.iter().any(|point| {
+        let summary = &point.summary;
+        [
+            summary.minimum_film_thickness.axial,
+            summary.peak_film_pressure.axial,
+        ]
+        .iter()
+        .any(|axial| axial.abs() > 1e-6 * cycle.bearing.width)
+    })
+}
+
+fn has_feed_flows(cycle: &CycleResults) -> bool {
+    !cycle.bearing.feeds.is_empty() && cycle.feed_flows.len() == cycle.orbit.points.len()
+}
+
+/// Figures that need no drawing of their own, by their kind.
+fn charts(cycle: &CycleResults, units: &Units) -> Value {
+    let points = &cycle.orbit.points;
+    let kept = figures::thinned(points.len(), figures::CURVE_POINTS);
+    let over = |value: &dyn Fn(usize) -> f64| kept.iter().map(|&i| value(i)).collect::<Vec<_>>();
+    let series = |name: String, mark, value: &dyn Fn(usize) -> f64| Series {
+        name,
+        x: over(&|i| degrees(points[i].crank_angle)),
+        y: over(value),
+        mark,
+    };
+    let chart = |y_title: &str, series| {
+        Chart {
+            x_title: "Crank angle [°]".to_owned(),
+            y_title: y_title.to_owned(),
+            series,
+        }
+        .data()
+    };
+    let dots =
+        |name: &str, value: &dyn Fn(usize) -> f64| series(name.to_owned(), Mark::Dots, value);
+    let thinnest = |i: usize| &points[i].summary.minimum_film_thickness;
+    let highest = |i: usize| &points[i].summary.peak_film_pressure;
+    let mut charts = json!({
+        "place-around": chart("Bearing angle [°]", vec![
+            dots("thinnest film", &|i| place(thinnest(i)).0),
+            dots("peak pressure", &|i| place(highest(i)).0),
+        ]),
+        "place-along": chart("Axial position [mm]", vec![
+            dots("thinnest film", &|i| place(thinnest(i)).1),
+            dots("peak pressure", &|i| place(highest(i)).1),
+        ]),
+    });
+    if has_feed_flows(cycle) {
+        let flows = (0..cycle.bearing.feeds.len()).map(|feed| {
+            let name = cycle_tables::feed_name(&cycle.bearing.feeds[feed], feed);
+            series(name, Mark::Line, &|i| {
+                let flow = cycle.feed_flows[i].get(feed);
+                flow.map_or(f64::NAN, |feed| feed.flow * units.flow.factor)
+            })
+        });
+        let title = format!("Flow [{}]", units.flow.symbol);
+        charts["feed-flows"] = chart(&title, flows.collect());
+    }
+    charts
 }

@@ -2,14 +2,44 @@
 
 use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
-use super::page::{Cell, Table, headline, last_iterates, limit_cells};
+use super::page::{Cell, Table, error, headline, last_iterates, limit_cells};
 use crate::limits::Quantity;
-use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
+use crate::regime::FlowRegime;
+use crate::results::{
+    CycleResults, Header, degrees, degrees_around, magnitude, place, specific_load,
+};
 use sommerfeld_bearing::CyclePoint;
-use sommerfeld_film::{Extreme, FilmSummary, Outcome};
+use sommerfeld_film::{Carrier, Extreme, Feed, FeedFlow, FeedShape, FilmSummary, Outcome};
 
 /// So many rows that did not converge are listed; the table of the cycle names all of them.
 const LISTED_ROWS: usize = 24;
+
+/// What the mass balance of a table of convergence means.
+pub(super) const BALANCE_NOTE: &str = "Mass balance: |feed − side − storage| over the largest of \
+    them. A closure that does not conserve oil shows here what it creates or loses.";
+/// What the Reynolds number of such a table is held against.
+pub(super) const REYNOLDS_NOTE: &str = "Reynolds number ρ U c/η; laminar below 41.1 √(R/c) \
+    (Taylor vortices: Taylor 1923, Phil. Trans. R. Soc. A 223, 289–343) and below 2000 (turbulent \
+    shear flow).";
+
+/// The Reynolds number of the film and its bound.
+pub(super) fn reynolds_row(flow: Option<FlowRegime>) -> Vec<Cell> {
+    let label = Cell::text("Reynolds number of the film, bound of laminar flow");
+    let Some(flow) = flow else {
+        return vec![label, Cell::number("not given by this film model")];
+    };
+    let text = format!(
+        "{}, {}",
+        significant(flow.reynolds_number),
+        significant(flow.critical)
+    );
+    let class = if flow.warning().is_some() {
+        "bad"
+    } else {
+        "number"
+    };
+    vec![label, Cell { text, class }]
+}
 
 /// The tables in the order of the page.
 pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<Table> {
@@ -18,6 +48,7 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
         means(header, cycle, units),
         convergence(cycle),
     ];
+    tables.extend(feeds(cycle, units));
     tables.extend(not_converged_rows(cycle));
     tables
 }
@@ -33,9 +64,16 @@ struct Peak<'a> {
     in_film: Option<fn(&FilmSummary) -> &Extreme>,
     /// What may limit it, and the unit of the limit.
     limited: Option<(Quantity, Unit)>,
+    /// Its key in `summary.json`, and the unit of its error.
+    key: Option<(&'static str, Unit)>,
 }
 
 impl Peak<'_> {
+    fn error(&self, header: &Header) -> String {
+        let error = self.key.and_then(|(key, unit)| error(header, key, unit));
+        error.map_or_else(String::new, |error| format!("± {error}"))
+    }
+
     fn cells(&self, header: &Header) -> Option<Vec<Cell>> {
         let point = self.point?;
         // A converged step of a run that did not converge is still part of no result.
@@ -55,6 +93,7 @@ impl Peak<'_> {
         Some(vec![
             Cell::text(self.label),
             Cell::number((self.value)(point)),
+            Cell::number(self.error(header)),
             Cell::number(angle(degrees(point.crank_angle))),
             bearing_angle,
             axial,
@@ -73,6 +112,7 @@ fn peaks<'a>(cycle: &'a CycleResults, units: &'a Units) -> Vec<Peak<'a>> {
         value,
         in_film: None,
         limited: None,
+        key: None,
     };
     let pressure = units.pressure;
     let heaviest = cycle.maximum_load();
@@ -85,6 +125,7 @@ fn peaks<'a>(cycle: &'a CycleResults, units: &'a Units) -> Vec<Peak<'a>> {
             value: Box::new(|p| MICROMETRE.show(p.summary.minimum_film_thickness.value)),
             in_film: Some(|summary| &summary.minimum_film_thickness),
             limited: Some((Quantity::MinimumFilmThickness, MICROMETRE)),
+            key: Some(("minimum_film_thickness_m", MICROMETRE)),
         },
         Peak {
             label: "Peak film pressure",
@@ -92,6 +133,7 @@ fn peaks<'a>(cycle: &'a CycleResults, units: &'a Units) -> Vec<Peak<'a>> {
             value: Box::new(move |p| pressure.show(p.summary.peak_film_pressure.value)),
             in_film: Some(|summary| &summary.peak_film_pressure),
             limited: Some((Quantity::PeakFilmPressure, pressure)),
+            key: Some(("peak_film_pressure_pa", pressure)),
         },
         plain(
             "Maximum load",
@@ -130,6 +172,7 @@ fn extremes(header: &Header, cycle: &CycleResults, units: &Units) -> Table {
         columns: vec![
             "Quantity",
             "Value",
+            "Error",
             "Crank angle",
             "Bearing angle",
             "Axial position",
@@ -161,6 +204,14 @@ fn means(header: &Header, cycle: &CycleResults, units: &Units) -> Table {
             units.power.show(cycle.mean(|p| p.summary.squeeze_power)),
         ),
         ("Side flow", units.flow.show(cycle.mean(side_flow))),
+        (
+            "of it front, z = −B/2",
+            units.flow.show(cycle.mean(|p| p.summary.side_flow[0])),
+        ),
+        (
+            "of it rear, z = +B/2",
+            units.flow.show(cycle.mean(|p| p.summary.side_flow[1])),
+        ),
         (
             "Feed flow",
             units.flow.show(cycle.mean(|p| p.summary.feed_flow)),
@@ -196,6 +247,61 @@ fn means(header: &Header, cycle: &CycleResults, units: &Units) -> Table {
     }
 }
 
+/// A groove or hole in a few words.
+pub(super) fn feed_name(feed: &Feed, index: usize) -> String {
+    let shape = match feed.shape {
+        FeedShape::Hole { .. } => "hole",
+        FeedShape::Rectangle { .. } => "groove",
+        FeedShape::Circumferential { .. } => "groove all around",
+    };
+    let carrier = match feed.carried_by {
+        Carrier::Shell => "shell",
+        Carrier::Journal => "journal",
+    };
+    let at = angle(degrees_around(feed.angle));
+    format!("{}: {shape} in the {carrier} at {at}", index + 1)
+}
+
+/// Mean, largest and smallest flow of each groove and hole.
+fn feeds(cycle: &CycleResults, units: &Units) -> Option<Table> {
+    let points = &cycle.orbit.points;
+    if cycle.bearing.feeds.is_empty() || cycle.feed_flows.len() != points.len() {
+        return None;
+    }
+    let rows = cycle.bearing.feeds.iter().enumerate().map(|(index, feed)| {
+        let flow = |row: &Vec<FeedFlow>| row.get(index).map_or(f64::NAN, |feed| feed.flow);
+        let flows: Vec<f64> = cycle.feed_flows.iter().map(flow).collect();
+        let show = |value: f64| Cell::number(units.flow.show(value));
+        vec![
+            Cell::text(feed_name(feed, index)),
+            Cell::number(units.pressure.show(feed.pressure)),
+            show(mean_over(points, &flows)),
+            show(flows.iter().copied().fold(f64::NAN, f64::max)),
+            show(flows.iter().copied().fold(f64::NAN, f64::min)),
+        ]
+    });
+    Some(Table {
+        title: "Grooves and holes",
+        note: "Flow into the film; negative where the film pushes oil back.".into(),
+        columns: vec!["Feed", "Gauge pressure", "Mean flow", "Largest", "Smallest"],
+        rows: rows.collect(),
+        size: "wide",
+    })
+}
+
+/// Mean of values given at the points over their crank angles (trapezoidal rule).
+fn mean_over(points: &[CyclePoint], values: &[f64]) -> f64 {
+    let widths = points
+        .windows(2)
+        .map(|pair| pair[1].crank_angle - pair[0].crank_angle);
+    let area: f64 = widths
+        .clone()
+        .zip(values.windows(2))
+        .map(|(width, pair)| 0.5 * width * (pair[0] + pair[1]))
+        .sum();
+    area / widths.sum::<f64>()
+}
+
 fn convergence(cycle: &CycleResults) -> Table {
     let orbit = &cycle.orbit;
     let worst = |value: fn(&FilmSummary) -> f64| {
@@ -229,11 +335,9 @@ fn convergence(cycle: &CycleResults) -> Table {
             "Worst cell residual",
             worst(|summary| summary.cell_residual),
         ),
-        (
-            "Largest Reynolds number of the film",
-            worst(|summary| summary.reynolds_number),
-        ),
     ];
+    let fastest = cycle.largest(|point| point.summary.reynolds_number);
+    let flow = fastest.and_then(|p| FlowRegime::of(&cycle.bearing, p.summary.reynolds_number));
     let mut cells = vec![vec![
         Cell::text("Status of the orbit"),
         Cell::outcome(orbit.outcome),
@@ -242,11 +346,10 @@ fn convergence(cycle: &CycleResults) -> Table {
         rows.into_iter()
             .map(|(label, value)| vec![Cell::text(label), Cell::number(value)]),
     );
+    cells.push(reynolds_row(flow));
     Table {
-        title: "Convergence",
-        note: "Mass balance: |feed − side − storage| over the largest of them. A closure that \
-               does not conserve oil shows here what it creates or loses."
-            .into(),
+        title: "Convergence and validity",
+        note: format!("{BALANCE_NOTE} {REYNOLDS_NOTE}"),
         rows: cells,
         ..Table::default()
     }

@@ -1,7 +1,7 @@
 //! The report of the dimensionless problem: five integrals.
 
 use super::format::{ONE, long, significant};
-use super::page::{Card, Cell, Page, Table, badge, error};
+use super::page::{Card, Cell, Page, Table, badge, error, exact};
 use crate::results::{DimensionlessResults, Header};
 use serde_json::{Value, json};
 
@@ -25,6 +25,8 @@ pub(super) fn fill(page: &mut Page, header: &Header, integrals: &DimensionlessRe
         let error = error(header, &format!("integrals.{key}"), ONE);
         page.cards.push(Card {
             label,
+            key,
+            exact: exact(value),
             value: significant(value),
             error: error.clone(),
             badge: badge(header.status),

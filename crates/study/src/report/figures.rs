@@ -5,25 +5,23 @@
 use super::format::{MICROMETRE, MILLIRADIAN, Unit, Units, angle};
 use crate::limits::Quantity;
 use crate::results::{
-    CycleResults, FieldSnapshot, Header, SteadyResults, degrees, degrees_around, magnitude, place,
+    CycleResults, Header, SteadyResults, degrees, degrees_around, magnitude, place,
 };
 use serde_json::{Value, json};
 use sommerfeld_bearing::CyclePoint;
-use sommerfeld_film::{Bearing, Carrier, Extreme, Feed, FeedShape, FilmSummary, JournalState};
+use sommerfeld_film::{Bearing, Carrier, Extreme, Feed, FeedShape};
 
 /// More points than this on a curve are not seen.
-const CURVE_POINTS: usize = 1500;
-/// More cells than this along one direction of a map are not seen.
-const MAP_CELLS: usize = 400;
+pub(super) const CURVE_POINTS: usize = 1500;
 
 /// A number for drawing: six significant digits, `null` where it is not finite.
-fn short(value: f64) -> Value {
+pub(super) fn short(value: f64) -> Value {
     let text = format!("{value:.5e}");
     json!(text.parse::<f64>().ok().filter(|value| value.is_finite()))
 }
 
 /// Every n-th of `count`, so that at most about `wanted` remain, and always the last.
-fn thinned(count: usize, wanted: usize) -> Vec<usize> {
+pub(super) fn thinned(count: usize, wanted: usize) -> Vec<usize> {
     let stride = count.div_ceil(wanted).max(1);
     let mut kept: Vec<usize> = (0..count).step_by(stride).collect();
     if count > 0 && kept.last() != Some(&(count - 1)) {
@@ -60,6 +58,11 @@ pub(super) fn cycle_data(header: &Header, cycle: &CycleResults, units: &Units) -
         "side_flow": curve(units.flow, &|p| p.summary.side_flow[0] + p.summary.side_flow[1]),
         "feed_flow": curve(units.flow, &|p| p.summary.feed_flow),
         "storage": curve(units.flow, &|p| p.summary.storage_rate),
+        "side_front": curve(units.flow, &|p| p.summary.side_flow[0]),
+        "side_rear": curve(units.flow, &|p| p.summary.side_flow[1]),
+        "journal_load_x": curve(units.force, &|p| on_journal(p)[0]),
+        "journal_load_y": curve(units.force, &|p| on_journal(p)[1]),
+        "journal_speed": curve(one, &|p| p.state.journal_speed),
         "tilt_x": tilted.then(|| curve(MILLIRADIAN, &|p| p.state.tilt[0])),
         "tilt_y": tilted.then(|| curve(MILLIRADIAN, &|p| p.state.tilt[1])),
         "failed": failed(cycle),
@@ -69,6 +72,13 @@ pub(super) fn cycle_data(header: &Header, cycle: &CycleResults, units: &Units) -
         "thickness_limits": limits(header, Quantity::MinimumFilmThickness, MICROMETRE),
         "pressure_limits": limits(header, Quantity::PeakFilmPressure, units.pressure),
     })
+}
+
+/// The load of a point in the frame that turns with the journal, N.
+fn on_journal(point: &CyclePoint) -> [f64; 2] {
+    let (sin, cos) = point.state.journal_angle.sin_cos();
+    let [x, y] = point.load;
+    [cos * x + sin * y, cos * y - sin * x]
 }
 
 /// Crank angle, film thickness and eccentricity of the points whose step did not converge.
@@ -130,11 +140,13 @@ fn marks(cycle: &CycleResults, units: &Units) -> Value {
     // The last point repeats the first one.
     while at < end - 1e-6 {
         let load = between(points, at, |p| p.load);
+        let turned = between(points, at, on_journal);
         let position = between(points, at, |p| p.state.position);
         marks.push(json!({
             "label": angle(at),
             "angle": at,
             "load": load.map(|value| short(value * units.force.factor)),
+            "journal_load": turned.map(|value| short(value * units.force.factor)),
             "position": position.map(|value| short(value / clearance)),
         }));
         at += spacing;
@@ -182,58 +194,9 @@ pub(super) fn position_data(steady: &SteadyResults, units: &Units) -> Value {
     })
 }
 
-/// Maps over angle and axial position with the places of the extremes and the feeds, and the
-/// curves in the mid-plane.
-pub(super) fn field_data(
-    field: &FieldSnapshot,
-    bearing: &Bearing,
-    state: &JournalState,
-    summary: &FilmSummary,
-    units: &Units,
-) -> Value {
-    let mut around: Vec<usize> = thinned(field.angles.len(), MAP_CELLS);
-    around.sort_by(|&a, &b| {
-        degrees_around(field.angles[a]).total_cmp(&degrees_around(field.angles[b]))
-    });
-    let along = thinned(field.axial.len(), MAP_CELLS);
-    let columns = field.axial.len();
-    let map = |values: &[f64], factor: f64| -> Value {
-        let cell = |i: usize, j: usize| values.get(i * columns + j).copied();
-        along
-            .iter()
-            .map(|&j| -> Value {
-                around
-                    .iter()
-                    .map(|&i| short(cell(i, j).unwrap_or(f64::NAN) * factor))
-                    .collect()
-            })
-            .collect()
-    };
-    let middle = |values: &[f64], factor: f64| -> Value {
-        around
-            .iter()
-            .map(|&i| short(mid_plane(values, &field.axial, i) * factor))
-            .collect()
-    };
-    let pressure = units.pressure.factor;
-    json!({
-        "angle": around.iter().map(|&i| short(degrees_around(field.angles[i]))).collect::<Value>(),
-        "axial": along.iter().map(|&j| short(field.axial[j] * 1e3)).collect::<Value>(),
-        "half_width": short(bearing.width * 500.0),
-        "pressure": map(&field.pressure, pressure),
-        "fraction": map(&field.film_fraction, 1.0),
-        "middle_pressure": middle(&field.pressure, pressure),
-        "middle_fraction": middle(&field.film_fraction, 1.0),
-        "middle_thickness": middle(&field.film_thickness, MICROMETRE.factor),
-        "highest": place_mark(&summary.peak_film_pressure, units.pressure),
-        "thinnest": place_mark(&summary.minimum_film_thickness, MICROMETRE),
-        "feeds": bearing.feeds.iter().map(|feed| outline(feed, bearing, state)).collect::<Value>(),
-    })
-}
-
 /// A cell value in the mid-plane: where an even number of cells has none there, the mean of the
 /// two beside it.
-fn mid_plane(values: &[f64], axial: &[f64], around: usize) -> f64 {
+pub(super) fn mid_plane(values: &[f64], axial: &[f64], around: usize) -> f64 {
     let columns = axial.len();
     let cell = |j: usize| {
         values
@@ -252,7 +215,7 @@ fn mid_plane(values: &[f64], axial: &[f64], around: usize) -> f64 {
     }
 }
 
-fn place_mark(extreme: &Extreme, unit: Unit) -> Value {
+pub(super) fn place_mark(extreme: &Extreme, unit: Unit) -> Value {
     let (degrees, axial) = place(extreme);
     json!({
         "angle": short(degrees),
@@ -261,12 +224,8 @@ fn place_mark(extreme: &Extreme, unit: Unit) -> Value {
     })
 }
 
-/// Outline of a feed on the developed surface, degrees and mm, where it stands at this instant.
-fn outline(feed: &Feed, bearing: &Bearing, state: &JournalState) -> Value {
-    let turned = match feed.carried_by {
-        Carrier::Shell => state.shell_angle,
-        Carrier::Journal => state.journal_angle,
-    };
+/// Outline of a feed on the developed surface of its carrier, degrees and mm.
+pub(super) fn outline(feed: &Feed, bearing: &Bearing) -> Value {
     let (length, width, is_round) = match feed.shape {
         FeedShape::Hole { diameter } => (diameter, diameter, true),
         FeedShape::Rectangle { length, width } => (length, width, false),
@@ -275,11 +234,12 @@ fn outline(feed: &Feed, bearing: &Bearing, state: &JournalState) -> Value {
         }
     };
     json!({
-        "angle": short(degrees_around(feed.angle + turned)),
+        "angle": short(degrees_around(feed.angle)),
         "axial": short(feed.position * 1e3),
         "half_length": short(degrees(0.5 * length / bearing.radius())),
         "half_width": short(width * 500.0),
         "round": is_round,
+        "on_journal": feed.carried_by == Carrier::Journal,
     })
 }
 
@@ -296,6 +256,26 @@ pub(super) fn unit_symbols(units: &Units) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use sommerfeld_film::{FilmSummary, JournalState, Outcome, Reaction};
+
+    #[test]
+    fn a_load_that_turns_with_the_journal_stands_still_on_it() {
+        let turned = 0.7f64;
+        let point = CyclePoint {
+            crank_angle: 0.0,
+            load: [2.0 * turned.cos(), 2.0 * turned.sin()],
+            moment: [0.0; 2],
+            state: JournalState {
+                journal_angle: turned,
+                ..JournalState::default()
+            },
+            reaction: Reaction::default(),
+            summary: FilmSummary::default(),
+            outcome: Outcome::Converged,
+        };
+        let [x, y] = on_journal(&point);
+        assert!((x - 2.0).abs() < 1e-12 && y.abs() < 1e-12);
+    }
 
     #[test]
     fn thinning_keeps_both_ends() {

@@ -21,6 +21,10 @@ const fn unit(symbol: &'static str, factor: f64) -> Unit {
 
 /// Film thickness.
 pub(crate) const MICROMETRE: Unit = unit("µm", 1e6);
+/// Limits of pressure, as users write them.
+pub(crate) const MEGAPASCAL: Unit = unit("MPa", 1e-6);
+/// Limits of power.
+pub(crate) const WATT: Unit = unit("W", 1.0);
 /// Tilt.
 pub(crate) const MILLIRADIAN: Unit = unit("mrad", 1e3);
 /// Dimensionless.
@@ -85,13 +89,7 @@ impl Unit {
 
     /// A number somebody chose, such as a limit, with the symbol: no zeros to fill four digits.
     pub fn plain(self, si: f64) -> String {
-        let text = self.number(si);
-        let text = if text.contains('.') && !text.contains('·') {
-            text.trim_end_matches('0').trim_end_matches('.')
-        } else {
-            &text
-        };
-        format!("{text} {}", self.symbol)
+        format!("{} {}", plain_number(si * self.factor), self.symbol)
     }
 
     /// The size of an error in this unit, without the symbol: two digits say enough.
@@ -102,12 +100,7 @@ impl Unit {
         }
         let unit = 10f64.powf(value.abs().log10().floor() - 1.0);
         let rounded = (value / unit).round() * unit;
-        let text = significant(rounded);
-        if text.contains('.') && !text.contains('·') {
-            text.trim_end_matches('0').trim_end_matches('.').to_owned()
-        } else {
-            text
-        }
+        plain_number(rounded)
     }
 
     /// An SI value in this unit with four significant digits and the symbol.
@@ -143,6 +136,16 @@ pub(crate) fn significant(value: f64) -> String {
     };
     let decimals = (3.0 - exponent).max(0.0) as usize;
     with_minus(format!("{value:.decimals$}"))
+}
+
+/// A number somebody chose: four significant digits at most, without zeros that fill them.
+pub(crate) fn plain_number(value: f64) -> String {
+    let text = significant(value);
+    if text.contains('.') && !text.contains('·') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// Eight decimals, for numbers that others compare theirs with.

@@ -4,14 +4,20 @@
 //! the figures from data that are already in reading units. Nothing is loaded from anywhere: style,
 //! script and the drawing library are in the file, and a content policy in its head forbids the rest.
 
+mod chart;
 mod cycle;
 mod cycle_tables;
 mod dimensionless;
 mod figures;
+mod film;
 mod format;
+mod packing;
 mod page;
+mod spark;
 mod steady;
+mod surfaces;
 
+use crate::regime::Regime;
 use crate::results::{Body, Results};
 use minijinja::{Environment, Value, context};
 use page::Page;
@@ -19,7 +25,15 @@ use page::Page;
 const FILE_NAME: &str = "report.html";
 const TEMPLATE: &str = include_str!("assets/report.html");
 const STYLE: &str = include_str!("assets/report.css");
-const SCRIPT: &str = include_str!("assets/report.js");
+/// The parts of the script in the order in which they need each other.
+const SCRIPT: &[&str] = &[
+    include_str!("assets/base.js"),
+    include_str!("assets/curves.js"),
+    include_str!("assets/planes.js"),
+    include_str!("assets/maps.js"),
+    include_str!("assets/film.js"),
+    include_str!("assets/start.js"),
+];
 const DRAWING_LIBRARY: &str = include_str!("assets/plotly.min.js");
 
 /// The report as HTML text.
@@ -29,6 +43,10 @@ const DRAWING_LIBRARY: &str = include_str!("assets/plotly.min.js");
 pub fn render(results: &Results) -> Result<String, minijinja::Error> {
     let header = &results.header;
     let mut page = Page::of(header);
+    page.warning = results
+        .flow_regime()
+        .filter(|flow| flow.regime != Regime::Laminar)
+        .map_or_else(String::new, |_| "Beyond laminar flow".to_owned());
     let data = match &results.body {
         Body::Steady(steady) => steady::fill(&mut page, header, steady),
         Body::LoadCycle(cycle) => cycle::fill(&mut page, header, cycle),
@@ -38,18 +56,14 @@ pub fn render(results: &Results) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_trim_blocks(true);
     environment.set_lstrip_blocks(true);
-    let library = if page.figures.is_empty() {
-        ""
-    } else {
-        DRAWING_LIBRARY
-    };
+    let library = if page.is_drawn() { DRAWING_LIBRARY } else { "" };
     environment.render_named_str(
         FILE_NAME,
         TEMPLATE,
         context! {
             page => Value::from_serialize(&page),
             style => Value::from_safe_string(STYLE.to_owned()),
-            script => Value::from_safe_string(SCRIPT.to_owned()),
+            script => Value::from_safe_string(SCRIPT.concat()),
             library => Value::from_safe_string(library.to_owned()),
             data => Value::from_safe_string(data),
         },

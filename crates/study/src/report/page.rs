@@ -1,10 +1,11 @@
 //! What the template shows: plain text blocks, everything already formatted for reading.
 
 use super::format;
+use super::spark::Spark;
 use crate::limits::{LimitCheck, Quantity, Side, Verdict};
 use crate::results::{Header, VERSION, status_name};
 use serde::Serialize;
-use sommerfeld_film::Outcome;
+use sommerfeld_film::{Bearing, Outcome};
 
 /// The whole page.
 #[derive(Debug, Serialize)]
@@ -15,13 +16,23 @@ pub(crate) struct Page {
     pub analysis: String,
     /// Version of the program.
     pub version: &'static str,
+    /// The bearing in a line; may be empty.
+    pub subject: String,
+    /// Whether the limits are kept.
+    pub answer: Answer,
     /// How the run ended.
     pub status: Status,
+    /// Names what lies outside the models; empty where nothing does.
+    pub warning: String,
     /// What the reader must know.
     pub messages: Vec<String>,
     /// Key figures.
     pub cards: Vec<Card>,
-    /// Figures in the order of the page.
+    /// The film at one instant or many, if the film model has fields.
+    pub film: Option<FilmPart>,
+    /// Figures by the question they answer, in the order of the page.
+    pub sections: Vec<Section>,
+    /// Further figures, after those of the sections.
     pub figures: Vec<Figure>,
     /// Tables in the order of the page.
     pub tables: Vec<Table>,
@@ -48,11 +59,58 @@ pub(crate) struct Status {
     pub explanation: &'static str,
 }
 
+/// Whether the limits are kept, on the first screen.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct Answer {
+    /// `good`, `bad` or `open`.
+    pub class: &'static str,
+    /// In two words.
+    pub headline: &'static str,
+    /// In a sentence.
+    pub explanation: String,
+    /// Every limit with the value it was held against.
+    pub checks: Vec<Check>,
+}
+
+/// Figures that answer one question.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct Section {
+    /// Anchor in the page.
+    pub id: &'static str,
+    /// Heading.
+    pub title: &'static str,
+    /// What to look at; may be empty.
+    pub lead: String,
+    /// Its figures.
+    pub figures: Vec<Figure>,
+}
+
+/// The words around the pictures of the film.
+#[derive(Debug, Serialize)]
+pub(crate) struct FilmPart {
+    /// Whether there is more than one instant to choose from.
+    pub is_cycle: bool,
+    /// What to do with it.
+    pub lead: String,
+    /// Caption of the body of the film.
+    pub solid: String,
+    /// Caption of the map of pressure.
+    pub pressure: String,
+    /// Caption of the map of film fraction.
+    pub fraction: String,
+}
+
 /// One key figure.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Card {
     /// What it is.
     pub label: &'static str,
+    /// Its key in `summary.json`.
+    pub key: &'static str,
+    /// Its value there, SI, with every digit; empty if not finite.
+    pub exact: String,
+    /// Its course over a cycle.
+    pub spark: Option<Spark>,
     /// Four significant digits.
     pub value: String,
     /// Unit of the value.
@@ -78,7 +136,9 @@ pub(crate) struct Check {
     pub text: String,
 }
 
-/// One figure; the script draws it by its kind.
+/// One figure; the script draws it by its kind: one of its own drawings, or a [`Chart`] of this name.
+///
+/// [`Chart`]: super::chart::Chart
 #[derive(Debug, Serialize)]
 pub(crate) struct Figure {
     /// Which drawing.
@@ -171,6 +231,9 @@ impl Page {
             title,
             analysis,
             version: VERSION,
+            subject: String::new(),
+            answer: answer(header),
+            warning: String::new(),
             status: Status {
                 name: status_name(header.status),
                 good: header.status == Outcome::Converged,
@@ -179,6 +242,8 @@ impl Page {
             },
             messages: header.messages.clone(),
             cards: Vec::new(),
+            film: None,
+            sections: Vec::new(),
             figures: Vec::new(),
             tables: Vec::new(),
             inputs: header
@@ -190,6 +255,116 @@ impl Page {
             facts: facts(header),
             study_text: header.study_text.clone(),
         }
+    }
+}
+
+impl Page {
+    /// Whether there is anything to draw.
+    pub fn is_drawn(&self) -> bool {
+        self.film.is_some() || !self.sections.is_empty() || !self.figures.is_empty()
+    }
+}
+
+/// A value of `summary.json` with every digit; empty where it is not finite.
+pub(crate) fn exact(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:?}")
+    } else {
+        String::new()
+    }
+}
+
+/// The bearing in a line.
+pub(crate) fn subject(bearing: &Bearing) -> String {
+    let millimetres = |metres: f64| format::plain_number(metres * 1e3);
+    let mut text = format!(
+        "Bore {} mm · width {} mm · radial clearance {} µm ({} ‰ of the radius)",
+        millimetres(bearing.diameter),
+        millimetres(bearing.width),
+        format::plain_number(bearing.radial_clearance * 1e6),
+        format::plain_number(bearing.relative_clearance() * 1e3)
+    );
+    match bearing.feeds.len() {
+        0 => {}
+        1 => text += " · one groove or hole",
+        count => text += &format!(" · {count} grooves and holes"),
+    }
+    text
+}
+
+/// What the limits say, in a sentence.
+fn answer(header: &Header) -> Answer {
+    let limits = &header.limits;
+    let with = |verdict| {
+        limits
+            .iter()
+            .filter(|check| check.verdict == verdict)
+            .count()
+    };
+    let of_all = |count: usize| format!("{count} of {}", limits.len());
+    let (class, headline, explanation) = if limits.is_empty() {
+        (
+            "open",
+            "No limits set",
+            "The study names no limits, so that there is nothing to judge the results against."
+                .to_owned(),
+        )
+    } else if with(Verdict::Exceeded) > 0 {
+        let exceeded = of_all(with(Verdict::Exceeded));
+        (
+            "bad",
+            "Limit exceeded",
+            format!("{exceeded} limits of the study exceeded."),
+        )
+    } else if with(Verdict::NotEvaluated) > 0 {
+        let open = of_all(with(Verdict::NotEvaluated));
+        (
+            "bad",
+            "Limits not evaluated",
+            format!("{open} limits could not be judged."),
+        )
+    } else {
+        (
+            "good",
+            "Limits kept",
+            "Every limit of the study is kept.".to_owned(),
+        )
+    };
+    Answer {
+        class,
+        headline,
+        explanation,
+        checks: limits.iter().map(check_with_value).collect(),
+    }
+}
+
+/// A limit with the quantity, what was found and how far it is from the limit.
+fn check_with_value(check: &LimitCheck) -> Check {
+    let quantity = check.limit.quantity;
+    let unit = match quantity {
+        Quantity::MinimumFilmThickness => format::MICROMETRE,
+        Quantity::PeakFilmPressure | Quantity::MaximumSpecificLoad => format::MEGAPASCAL,
+        Quantity::PowerLoss => format::WATT,
+    };
+    let found = check
+        .found
+        .map_or("n/a".to_owned(), |value| unit.show(value));
+    let margin = check.found.map_or(String::new(), |value| {
+        let share = 100.0 * (value / check.limit.value - 1.0);
+        if share.is_finite() {
+            format!(", {share:+.0} %").replace('-', "−")
+        } else {
+            String::new()
+        }
+    });
+    Check {
+        verdict: verdict(check),
+        good: check.verdict == Verdict::Ok,
+        text: format!(
+            "{} {found}, limit {}{margin}",
+            quantity.key().replace('_', " "),
+            limit_text(check, unit)
+        ),
     }
 }
 

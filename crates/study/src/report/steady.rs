@@ -1,20 +1,41 @@
 //! The report of one state of the journal: position, load and force, pressure, results.
 
-use super::cycle::map_figures;
+use super::cycle_tables::{BALANCE_NOTE, REYNOLDS_NOTE, feed_name, reynolds_row};
 use super::figures;
+use super::film::{self, Instant, in_film};
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{
-    Card, Cell, Figure, Page, Table, badge, checks, error, last_iterates, limit_cells,
+    Card, Cell, Figure, Page, Section, Table, badge, checks, error, exact, last_iterates,
+    limit_cells, subject,
 };
 use crate::limits::Quantity;
-use crate::results::{Header, SteadyResults, degrees, degrees_around, magnitude, place};
+use crate::regime::FlowRegime;
+use crate::results::{FieldSnapshot, Header, SteadyResults, degrees, degrees_around, magnitude};
 use serde_json::{Value, json};
 
 /// Fills cards, figures and tables; returns the data of the figures.
 pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> Value {
     let units = units(steady);
     page.cards = cards(header, steady, &units);
-    page.figures = figures_of(steady);
+    page.subject = subject(&steady.bearing);
+    let figures = figures_of(steady);
+    let instant: Vec<Instant<'_>> = steady
+        .field
+        .iter()
+        .map(|field| instant(steady, field))
+        .collect();
+    page.film = instant
+        .first()
+        .filter(|_| !figures.is_empty())
+        .map(|one| film::part(&steady.bearing, one.field, 1));
+    if !figures.is_empty() {
+        page.sections = vec![Section {
+            id: "position",
+            title: "Journal and mid-plane",
+            lead: String::new(),
+            figures,
+        }];
+    }
     let beside: Vec<Table> = [coefficients(steady), feeds(steady, &units)]
         .into_iter()
         .flatten()
@@ -29,10 +50,23 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
     json!({
         "units": figures::unit_symbols(&units),
         "position": figures::position_data(steady, &units),
-        "field": steady.field.as_ref().map(|field| {
-            figures::field_data(field, &steady.bearing, &steady.state, &steady.summary, &units)
-        }),
+        "film": film::film_data(&steady.bearing, &instant, &units),
+        "middle": steady.field.as_ref().map(|field| film::middle_data(field, &units)),
     })
+}
+
+fn instant<'a>(steady: &'a SteadyResults, field: &'a FieldSnapshot) -> Instant<'a> {
+    let force = steady.reaction.force();
+    Instant {
+        crank_angle: None,
+        field,
+        state: &steady.state,
+        summary: &steady.summary,
+        // Where a position was given, the load is what the film would bear there.
+        load: steady
+            .load
+            .unwrap_or_else(|| force.map(|component| -component)),
+    }
 }
 
 fn units(steady: &SteadyResults) -> Units {
@@ -66,6 +100,9 @@ fn cards(header: &Header, steady: &SteadyResults, units: &Units) -> Vec<Card> {
     let summary = &steady.summary;
     let card = |label, value: f64, unit: Unit, key, limited, detail| Card {
         label,
+        key,
+        exact: exact(value),
+        spark: None,
         value: unit.number(value),
         unit: unit.symbol,
         error: error(header, key, unit),
@@ -95,7 +132,7 @@ fn cards(header: &Header, steady: &SteadyResults, units: &Units) -> Vec<Card> {
             MICROMETRE,
             "minimum_film_thickness_m",
             Quantity::MinimumFilmThickness,
-            in_film(place(&summary.minimum_film_thickness)),
+            in_film(&summary.minimum_film_thickness, steady.bearing.width),
         ),
         card(
             "Peak film pressure",
@@ -103,7 +140,7 @@ fn cards(header: &Header, steady: &SteadyResults, units: &Units) -> Vec<Card> {
             units.pressure,
             "peak_film_pressure_pa",
             Quantity::PeakFilmPressure,
-            in_film(place(&summary.peak_film_pressure)),
+            in_film(&summary.peak_film_pressure, steady.bearing.width),
         ),
         plain(
             "Relative eccentricity",
@@ -135,14 +172,6 @@ fn cards(header: &Header, steady: &SteadyResults, units: &Units) -> Vec<Card> {
             "So = F ψ²/(B D η ω)".to_owned(),
         ),
     ]
-}
-
-fn in_film((degrees, axial): (f64, f64)) -> String {
-    format!(
-        "at {}, {} mm from mid-plane",
-        angle(degrees),
-        significant(axial)
-    )
 }
 
 fn figures_of(steady: &SteadyResults) -> Vec<Figure> {
@@ -177,7 +206,6 @@ fn figures_of(steady: &SteadyResults) -> Vec<Figure> {
             caption: "Gap, and the part of it that oil fills (film fraction times gap).".into(),
             size: "",
         });
-        list.extend(map_figures(""));
     }
     list
 }
@@ -305,6 +333,11 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
             units.flow,
             None,
         ),
+        plain(
+            "of it front (z = −B/2), rear (z = +B/2)",
+            pair(units.flow, summary.side_flow),
+            "",
+        ),
         in_unit(
             "Feed flow",
             summary.feed_flow,
@@ -330,21 +363,17 @@ fn convergence(header: &Header, steady: &SteadyResults) -> Table {
         ("Complementarity", size(summary.complementarity_violation)),
         ("Cell residual", size(summary.cell_residual)),
         ("Share of full film", significant(summary.full_film_share)),
-        (
-            "Reynolds number of the film",
-            significant(summary.reynolds_number),
-        ),
     ];
     let mut cells = vec![vec![Cell::text("Status"), Cell::outcome(header.status)]];
     cells.extend(
         rows.into_iter()
             .map(|(label, value)| vec![Cell::text(label), Cell::number(value)]),
     );
+    let flow = FlowRegime::of(&steady.bearing, summary.reynolds_number);
+    cells.push(reynolds_row(flow));
     Table {
-        title: "Convergence",
-        note: "Mass balance: |feed − side − storage| over the largest of them. A closure that \
-               does not conserve oil shows here what it creates or loses."
-            .into(),
+        title: "Convergence and validity",
+        note: format!("{BALANCE_NOTE} {REYNOLDS_NOTE}"),
         rows: cells,
         ..Table::default()
     }
@@ -386,8 +415,12 @@ fn feeds(steady: &SteadyResults, units: &Units) -> Option<Table> {
         .iter()
         .enumerate()
         .map(|(index, feed)| {
+            let name = steady.bearing.feeds.get(index).map_or_else(
+                || format!("Feed {}", index + 1),
+                |feed| feed_name(feed, index),
+            );
             vec![
-                Cell::text(format!("Feed {}", index + 1)),
+                Cell::text(name),
                 Cell::number(units.flow.show(feed.flow)),
                 Cell::number(units.pressure.show(feed.pressure)),
             ]

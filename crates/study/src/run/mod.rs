@@ -133,6 +133,8 @@ fn solve_into(
         })
         .collect();
     results.check_limits(&limits);
+    let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
+    results.header.messages.extend(beyond_laminar);
     Ok(results)
 }
 

@@ -12,7 +12,7 @@ use sommerfeld_study::limits::{Limit, Quantity};
 use sommerfeld_study::models;
 use sommerfeld_study::results::{
     AccumulatedMap, Body, CycleField, CycleFields, CycleResults, DimensionlessResults,
-    FieldSnapshot, Header, InputRow, MOST_FRAMES, Results, SteadyResults,
+    FieldSnapshot, Header, InputRow, Results, SteadyResults,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -107,16 +107,7 @@ fn limits() -> [Limit; 2] {
 /// A made-up load cycle.
 pub fn load_cycle(title: &str) -> Results {
     let points: Vec<CyclePoint> = (0..POINTS).map(cycle_point).collect();
-    let at = |index: usize| CycleField {
-        crank_angle: points[index].crank_angle,
-        field: field(&points[index].state),
-    };
-    let fields = CycleFields {
-        frames: (1..=MOST_FRAMES).map(|frame| at(10 * frame)).collect(),
-        worst: at(371),
-        on_shell: accumulated(0.0),
-        on_journal: accumulated(PI),
-    };
+    let fields = cycle_fields(&points);
     let feed_flows = points
         .iter()
         .map(|point| {
@@ -154,6 +145,69 @@ pub fn load_cycle(title: &str) -> Results {
     };
     results.check_limits(&limits());
     results
+}
+
+/// Fields every 10 deg of crank angle, and what the surfaces have seen of them.
+fn cycle_fields(points: &[CyclePoint]) -> CycleFields {
+    let at = |point: &CyclePoint| CycleField {
+        crank_angle: point.crank_angle,
+        field: field(&point.state, point.summary.peak_film_pressure.value),
+    };
+    let kept: Vec<&CyclePoint> = points.iter().step_by(10).take(72).collect();
+    let frames: Vec<CycleField> = kept.iter().map(|point| at(point)).collect();
+    let seen = |turned: fn(&CyclePoint) -> f64| {
+        let instants: Vec<(f64, &FieldSnapshot)> = kept
+            .iter()
+            .zip(&frames)
+            .map(|(point, frame)| (turned(point), &frame.field))
+            .collect();
+        accumulated(&instants)
+    };
+    CycleFields {
+        worst: at(&points[371]),
+        on_shell: seen(|_| 0.0),
+        on_journal: seen(|point| point.state.journal_angle),
+        frames,
+    }
+}
+
+/// What the points of a surface that has turned by the given angles have seen of these fields.
+fn accumulated(instants: &[(f64, &FieldSnapshot)]) -> AccumulatedMap {
+    let first = instants[0].1;
+    let (around, along) = (first.angles.len(), first.axial.len());
+    let seen =
+        |start: f64, value: &dyn Fn(&FieldSnapshot, usize) -> f64, join: fn(f64, f64) -> f64| {
+            let cells = (0..around * along).map(|cell| {
+                instants.iter().fold(start, |seen, (turned, field)| {
+                    let shift = (turned / TAU * around as f64).round() as i64;
+                    let from = (cell / along) as i64 + shift;
+                    let from = from.rem_euclid(around as i64) as usize * along + cell % along;
+                    join(seen, value(field, from))
+                })
+            });
+            cells.collect::<Vec<f64>>()
+        };
+    let highest = seen(0.0, &|field, cell| field.pressure[cell], f64::max);
+    let lowest = seen(f64::INFINITY, &|field, cell| field.pressure[cell], f64::min);
+    let full = |field: &FieldSnapshot, cell: usize| {
+        f64::from(u8::from(field.film_fraction[cell] >= 1.0)) / instants.len() as f64
+    };
+    AccumulatedMap {
+        angles: first.angles.clone(),
+        axial: first.axial.clone(),
+        minimum_film_thickness: seen(
+            f64::INFINITY,
+            &|field, cell| field.film_thickness[cell],
+            f64::min,
+        ),
+        pressure_amplitude: highest
+            .iter()
+            .zip(&lowest)
+            .map(|(high, low)| 0.5 * (high - low))
+            .collect(),
+        maximum_pressure: highest,
+        full_film_share: seen(0.0, &full, |sum, part| sum + part),
+    }
 }
 
 /// The same cycle with three steps that did not converge.
@@ -245,25 +299,8 @@ fn summary(state: &JournalState, peak: f64, turned: f64) -> FilmSummary {
     }
 }
 
-/// What a surface has seen, heaviest at `centre`.
-fn accumulated(centre: f64) -> AccumulatedMap {
-    let snapshot = field(&JournalState::default());
-    let by_angle = |value: &dyn Fn(f64) -> f64| -> Vec<f64> {
-        let row = |angle: &f64| vec![value((angle - centre).cos()); snapshot.axial.len()];
-        snapshot.angles.iter().flat_map(row).collect()
-    };
-    AccumulatedMap {
-        minimum_film_thickness: by_angle(&|cos| 1e-6 * (4.0 - 3.0 * cos)),
-        maximum_pressure: by_angle(&|cos| 140e6 * (0.6 + 0.4 * cos)),
-        pressure_amplitude: by_angle(&|cos| 70e6 * (0.6 + 0.4 * cos)),
-        full_film_share: by_angle(&|cos| 0.5 + 0.4 * cos),
-        angles: snapshot.angles,
-        axial: snapshot.axial,
-    }
-}
-
 /// A bump of pressure ahead of the narrowest gap, a ruptured region behind it.
-fn field(state: &JournalState) -> FieldSnapshot {
+fn field(state: &JournalState, peak: f64) -> FieldSnapshot {
     const AROUND: usize = 128;
     const ALONG: usize = 32;
     let width = bearing().width;
@@ -285,7 +322,8 @@ fn field(state: &JournalState) -> FieldSnapshot {
         let ahead = if behind > PI { behind - TAU } else { behind };
         for z in &axial {
             let side = 1.0 - (2.0 * z / width).powi(2);
-            let pressure = (140e6 * (-((ahead + 0.25) / 0.3).powi(2)).exp() * side - 1e6).max(0.0);
+            let bump = (-((ahead + 0.25) / 0.3).powi(2)).exp() * side;
+            let pressure = peak * (bump - 0.01).max(0.0) / 0.99;
             let is_ruptured = (0.15..2.4).contains(&ahead);
             let [x, y] = state.position;
             snapshot.pressure.push(pressure);
@@ -331,7 +369,7 @@ pub fn steady(title: &str) -> Results {
         iterations: 7,
         stiffness: Some([[8.12e8, 3.4e8], [-1.27e9, 2.05e9]]),
         damping: Some([[1.94e6, -1.1e6], [-1.1e6, 5.2e6]]),
-        field: Some(field(&state)),
+        field: Some(field(&state, 141e6)),
         state,
     };
     let mut results = Results {

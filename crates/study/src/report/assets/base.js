@@ -1,0 +1,71 @@
+"use strict";
+// What all figures share: data, theme, axes. Later parts add their drawings to `report.drawings`,
+// each a function that takes the element and returns traces and layout.
+((report) => {
+  report.data = JSON.parse(document.getElementById("data").textContent);
+  report.drawings = {};
+
+  // Colours come from the style sheet, so that light, dark and print agree with the page.
+  const theme = (report.theme = {});
+  report.readTheme = (printing) => {
+    const style = getComputedStyle(document.documentElement);
+    const names = ["paper", "ink", "soft", "line", "first", "second", "third", "faint", "bad", "text", "wash"];
+    Object.assign(theme, Object.fromEntries(names.map((name) => [name, style.getPropertyValue("--" + name).trim()])));
+    theme.size = printing ? 10 : 12;
+    if (printing) {
+      Object.assign(theme, { paper: "#ffffff", ink: "#171c21", soft: "#58626c", line: "#e0e3e1", wash: "#f1f4f6",
+        first: "#0b6aa8", second: "#c8550a", third: "#00795c", faint: "#98a2ab", bad: "#a8230f" });
+    }
+  };
+
+  report.withUnit = (name, unit) => (unit ? `${name} [${unit}]` : name);
+
+  report.axis = (title, extra) => Object.assign({
+    title: { text: title, standoff: 8 }, gridcolor: theme.line, zerolinecolor: theme.line,
+    linecolor: theme.faint, tickcolor: theme.faint, ticks: "outside", ticklen: 4, showline: true,
+    automargin: true, separatethousands: false, exponentformat: "power",
+  }, extra);
+
+  report.layout = (xaxis, yaxis, extra) => Object.assign({
+    font: { family: theme.text, size: theme.size, color: theme.soft },
+    paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)",
+    margin: { l: 58, r: 18, t: 12, b: 46 }, xaxis, yaxis, showlegend: false,
+    legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", font: { color: theme.ink } },
+    hoverlabel: { bgcolor: theme.paper, bordercolor: theme.line, font: { color: theme.ink, family: theme.text } },
+    shapes: [], annotations: [],
+    modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.faint, activecolor: theme.first },
+  }, extra);
+
+  report.bearingAxis = () => report.axis("Bearing angle [°]", { range: [0, 360], tick0: 0, dtick: 45 });
+
+  // A packed field as numbers: whole steps from the lowest value; the highest code is a gap.
+  report.unpacked = (packed) => {
+    const text = atob(packed.data);
+    const bytes = Uint8Array.from(text, (letter) => letter.charCodeAt(0));
+    const missing = packed.bytes === 1 ? 255 : 65535;
+    const values = new Float64Array(bytes.length / packed.bytes);
+    for (let i = 0; i < values.length; i += 1) {
+      const code = packed.bytes === 1 ? bytes[i] : bytes[2 * i] + 256 * bytes[2 * i + 1];
+      values[i] = code === missing ? NaN : packed.low + packed.step * code;
+    }
+    return values;
+  };
+
+  // Rows along the axis, each around, of one frame.
+  report.rows = (values, around, along, frame) => Array.from({ length: along }, (_, j) => {
+    const start = (frame * along + j) * around;
+    return Array.from(values.subarray(start, start + around), (value) => (Number.isNaN(value) ? null : value));
+  });
+
+  report.largest = (values) => {
+    let largest = -Infinity;
+    for (const value of values) { if (value > largest) { largest = value; } }
+    return largest;
+  };
+
+  report.smallest = (values) => {
+    let smallest = Infinity;
+    for (const value of values) { if (value < smallest) { smallest = value; } }
+    return smallest;
+  };
+})(globalThis.sommerfeld ??= {});

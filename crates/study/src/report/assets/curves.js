@@ -1,0 +1,113 @@
+"use strict";
+// Curves over crank angle or bearing angle.
+((report) => {
+  const { theme, axis, layout, withUnit, bearingAxis, drawings } = report;
+  const { cycle, middle, units, charts } = report.data;
+
+  const dashes = ["solid", "dash", "dot", "dashdot", "longdash"];
+  const colours = ["first", "second", "third", "soft", "bad"];
+
+  function crankAxis() {
+    const [first, last] = [cycle.angle[0], cycle.angle[cycle.angle.length - 1]];
+    return axis("Crank angle [°]", { range: [first, last], tick0: 0, dtick: last - first > 400 ? 90 : 45 });
+  }
+
+  function line(x, y, name, order, extra) {
+    return Object.assign({ x, y, name, mode: "lines",
+      line: { color: theme[colours[order % 5]], width: order === 0 ? 1.9 : 1.5, dash: dashes[order % 5], simplify: false },
+      hovertemplate: "%{y:.4~g}" }, extra);
+  }
+
+  function curves(traces, title, xaxis, extra) {
+    const legend = traces.filter((trace) => trace.showlegend !== false).length > 1;
+    return { traces, layout: layout(xaxis, axis(title, { rangemode: "tozero" }), Object.assign({
+      hovermode: "x unified", showlegend: legend, margin: { l: 58, r: 18, t: legend ? 34 : 12, b: 46 },
+    }, extra)) };
+  }
+
+  // A mark on the extreme of a curve with its value, on the side that has room.
+  function extremeMark(element, mark, rise) {
+    if (!mark || mark.value === null) { return { traces: [], annotations: [] }; }
+    const [first, last] = [cycle.angle[0], cycle.angle[cycle.angle.length - 1]];
+    const reach = element.clientWidth < 400 ? 20 : 40;
+    const right = (1 - (mark.angle - first) / (last - first)) * (element.clientWidth - 76) > reach + 9.5 * theme.size;
+    return {
+      traces: [{ x: [mark.angle], y: [mark.value], mode: "markers", hoverinfo: "skip", showlegend: false,
+        marker: { color: theme.second, size: 9, line: { color: theme.paper, width: 1.5 } } }],
+      annotations: [{ x: mark.angle, y: mark.value, text: mark.label, showarrow: true, arrowhead: 0,
+        arrowwidth: 1, arrowcolor: theme.second, standoff: 6, ax: right ? reach : -reach, ay: -rise,
+        xanchor: right ? "left" : "right", font: { color: theme.ink }, bgcolor: theme.paper, borderpad: 2 }],
+    };
+  }
+
+  function limitLines(limits) {
+    return {
+      shapes: limits.map((limit) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit.value, y1: limit.value,
+        line: { color: theme.bad, width: 1.2, dash: "dash" } })),
+      annotations: limits.map((limit) => ({ xref: "paper", x: 1, xanchor: "right", y: limit.value, yanchor: "bottom",
+        text: limit.label, showarrow: false, font: { color: theme.bad } })),
+    };
+  }
+
+  function failedMarks(column) {
+    if (cycle.failed.length === 0) { return []; }
+    return [{ x: cycle.failed.map((row) => row[0]), y: cycle.failed.map((row) => row[column]), mode: "markers",
+      name: "not converged", showlegend: false, hovertemplate: "not converged",
+      marker: { symbol: "x-thin", size: 9, line: { color: theme.bad, width: 2 } } }];
+  }
+
+  function judged(element, values, title, mark, rise, limits, failedColumn) {
+    const extreme = extremeMark(element, mark, rise);
+    const lines = limitLines(limits);
+    const traces = [line(cycle.angle, values, title, 0, { showlegend: false }), ...extreme.traces,
+      ...(failedColumn ? failedMarks(failedColumn) : [])];
+    return curves(traces, title, crankAxis(), {
+      shapes: lines.shapes, annotations: [...lines.annotations, ...extreme.annotations] });
+  }
+
+  // Dots of several series over each other keep their shapes: filled, then open.
+  function dots(series, order) {
+    return { x: series.x, y: series.y, name: series.name, mode: "markers", hovertemplate: "%{y:.4~g}",
+      marker: { color: theme[colours[order % 5]], size: order === 0 ? 5 : 4, opacity: 0.8,
+        symbol: order === 0 ? "circle" : "diamond-open" } };
+  }
+
+  function chart(name) {
+    const { x_title: xTitle, y_title: yTitle, series } = charts[name];
+    const traces = series.map((one, order) => (one.dots ? dots(one, order) : line(one.x, one.y, one.name, order)));
+    const isCrank = cycle && xTitle.startsWith("Crank angle");
+    const figure = curves(traces, yTitle, isCrank ? crankAxis() : axis(xTitle));
+    if (yTitle.startsWith("Bearing angle")) { Object.assign(figure.layout.yaxis, { range: [0, 360], tick0: 0, dtick: 90 }); }
+    return figure;
+  }
+
+  for (const name of Object.keys(charts ?? {})) { drawings[name] = () => chart(name); }
+
+  const over = (...series) => series.map(([name, values], order) => line(cycle.angle, values, name, order));
+
+  if (cycle) {
+    Object.assign(drawings, {
+      thickness: (element) => judged(element, cycle.thickness, "Film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
+      pressure: (element) => judged(element, cycle.pressure, withUnit("Film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
+      power: () => curves(over(["total", cycle.power], ["friction", cycle.friction_power], ["squeeze", cycle.squeeze_power]),
+        withUnit("Power", units.power), crankAxis()),
+      flow: () => curves(over(["feed", cycle.feed_flow], ["side front", cycle.side_front], ["side rear", cycle.side_rear],
+        ["storage", cycle.storage]), withUnit("Flow", units.flow), crankAxis()),
+      eccentricity: () => curves([line(cycle.angle, cycle.eccentricity, "relative eccentricity", 0, { showlegend: false }),
+        ...failedMarks(2)], "Relative eccentricity [–]", crankAxis()),
+      load: () => curves(over(["magnitude", cycle.load], ["x", cycle.load_x], ["y", cycle.load_y]),
+        withUnit("Load", units.force), crankAxis()),
+      tilt: () => curves(over(["about x", cycle.tilt_x], ["about y", cycle.tilt_y]), "Tilt [mrad]", crankAxis()),
+    });
+  }
+  if (middle) {
+    Object.assign(drawings, {
+      "middle-pressure": () => curves([line(middle.angle, middle.pressure, "film pressure", 0)],
+        withUnit("Film pressure", units.pressure), bearingAxis()),
+      "middle-thickness": () => curves([
+        line(middle.angle, middle.thickness, "gap", 0),
+        line(middle.angle, middle.thickness.map((h, i) => h * middle.fraction[i]), "oil in the gap", 1),
+      ], "Film thickness [µm]", bearingAxis()),
+    });
+  }
+})(globalThis.sommerfeld);

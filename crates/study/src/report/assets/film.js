@@ -1,0 +1,225 @@
+"use strict";
+// The film at an instant: body and maps, driven together by one slider.
+((report) => {
+  const { theme, axis, layout, drawings, unpacked, rows, withUnit } = report;
+  const { film, units } = report.data;
+  if (!film) { return; }
+
+  const [around, along] = [film.angle.length, film.axial.length];
+  const fields = {
+    pressure: { values: unpacked(film.pressure), scale: "Viridis", name: "film pressure", unit: units.pressure },
+    fraction: { values: unpacked(film.fraction), scale: "Cividis", name: "film fraction", unit: "" },
+    thickness: { values: unpacked(film.thickness), scale: "Plasma", name: "film thickness", unit: "µm", reversed: true },
+  };
+  for (const field of Object.values(fields)) {
+    field.low = report.smallest(field.values);
+    field.high = report.largest(field.values);
+  }
+  const choice = { shape: "bush", colour: "pressure", scale: "cycle" };
+  let shown = film.jumps.length > 0 ? film.jumps[0].frame : 0;
+
+  const frame = () => film.frames[shown];
+  const rowsOf = (name) => rows(fields[name].values, around, along, shown);
+
+  // Range of colours: of pressure over the cycle or this instant, of the others over the cycle.
+  function range(name) {
+    if (name === "fraction") { return [0, 1]; }
+    const { low, high } = fields[name];
+    if (name === "thickness") { return [low, high]; }
+    const top = choice.scale === "cycle" ? high : report.largest(fields.pressure.values.subarray(shown * around * along, (shown + 1) * around * along));
+    return [Math.min(0, low), Math.max(top, 1e-12)];
+  }
+
+  const turned = (feed) => (feed.on_journal ? frame().journal_angle : frame().shell_angle);
+
+  function map(name, marks) {
+    const field = fields[name];
+    const [zmin, zmax] = range(name);
+    return report.map({ angle: film.angle, axial: film.axial, half: film.half_width, values: rowsOf(name), scale: field.scale,
+      range: { zmin, zmax }, name: field.name, unit: field.unit, marks, shapes: report.outlines(film.feeds, turned) });
+  }
+
+  drawings["film-pressure"] = () => map("pressure", [...report.placeMark(frame().thinnest, "x-thin", 8),
+    ...report.placeMark(frame().highest, "circle-open", 12)]);
+  drawings["film-fraction"] = () => map("fraction", report.placeMark(frame().thinnest, "x-thin", 8));
+
+  // ---- the body of the film ------------------------------------------------------------------
+
+  // Height of the highest pressure above the rings, in bearing radii.
+  const exaggeration = 0.85;
+
+  const closed = (row) => [...row, row[0]];
+  const turns = closed(film.angle).map((angle, i) => (angle + (i === around ? 360 : 0)) * Math.PI / 180);
+
+  function surface(x, y, z, colour) {
+    const field = fields[colour];
+    const [cmin, cmax] = range(colour);
+    return { type: "surface", x, y, z, surfacecolor: rowsOf(colour).map(choice.shape === "bush" ? closed : (row) => row),
+      colorscale: field.scale, reversescale: field.reversed ?? false, cmin, cmax, hoverinfo: "skip", showlegend: false,
+      lighting: { ambient: 0.72, diffuse: 0.55, specular: 0.08, roughness: 0.9, fresnel: 0.05 },
+      lightposition: { x: 2000, y: 6000, z: 9000 },
+      colorbar: Object.assign(report.colourBar(withUnit(field.name.replace("film ", ""), field.unit || "–")), { len: 0.6, thickness: 12, x: 1.0, xanchor: "right" }) };
+  }
+
+  const wire = (x, y, z, color, width) => ({ type: "scatter3d", mode: "lines", x, y, z, hoverinfo: "skip", showlegend: false,
+    line: { color, width } });
+  const words = (x, y, z, text, color) => ({ type: "scatter3d", mode: "text", x, y, z, text, hoverinfo: "skip", showlegend: false,
+    textfont: { color, size: theme.size, family: theme.text } });
+
+  function loadArrow(half) {
+    const [x, y] = frame().load;
+    const size = Math.hypot(x ?? 0, y ?? 0);
+    if (!(size > 0)) { return []; }
+    const [ux, uy] = [x / size, y / size];
+    const tip = 0.78;
+    const head = [-1, 1].flatMap((side) => [tip * ux, (tip - 0.15) * ux - side * 0.08 * uy, null]);
+    const headY = [-1, 1].flatMap((side) => [tip * uy, (tip - 0.15) * uy + side * 0.08 * ux, null]);
+    const shaft = { x: [0, tip * ux, null, ...head], y: [0, tip * uy, null, ...headY] };
+    return [wire(shaft.x, shaft.y, shaft.x.map((value) => (value === null ? null : half)), theme.second, 7),
+      words([-0.17 * ux], [-0.17 * uy], [half], [frame().load_text], theme.second)];
+  }
+
+  function bush() {
+    const scale = film.radius;
+    const top = range("pressure")[1];
+    const half = film.half_width / scale;
+    const pressure = rowsOf("pressure").map(closed);
+    const radius = pressure.map((row) => row.map((value) => 1 + exaggeration * Math.max(0, value ?? 0) / top));
+    const x = radius.map((row) => row.map((r, i) => r * Math.cos(turns[i])));
+    const y = radius.map((row) => row.map((r, i) => r * Math.sin(turns[i])));
+    const z = radius.map((row, j) => row.map(() => film.axial[j] / scale));
+    const ring = Array.from({ length: 121 }, (_, i) => i * Math.PI / 60);
+    const rings = [-half, half].map((end) => wire(ring.map(Math.cos), ring.map(Math.sin), ring.map(() => end), theme.faint, 3));
+    const named = [0, 90, 180, 270];
+    const place = (reach, of) => named.map((angle) => reach * of(angle * Math.PI / 180));
+    const spokes = named.flatMap((angle) => [0.86, 1, null].map((r) => [r, angle * Math.PI / 180]));
+    const ticks = wire(spokes.map(([r, a]) => (r === null ? null : r * Math.cos(a))), spokes.map(([r, a]) => (r === null ? null : r * Math.sin(a))),
+      spokes.map(([r]) => (r === null ? null : half)), theme.soft, 3);
+    const labels = words(place(0.72, Math.cos), place(0.72, Math.sin), named.map(() => half), named.map((angle) => `${angle}°`), theme.soft);
+    const ends = words([0, 0], [-1.16, -1.16], [half, -half], [`z = +${film.half_width} mm`, `z = −${film.half_width} mm`], theme.soft);
+    const reach = 1.06 + exaggeration;
+    const plain = (extent) => ({ visible: false, range: [-extent, extent] });
+    return { traces: [surface(x, y, z, choice.colour), ...rings, ticks, labels, ends, ...loadArrow(half)],
+      scene: { xaxis: plain(reach), yaxis: plain(reach), zaxis: plain(1.25 * half), aspectmode: "manual",
+        aspectratio: { x: 1, y: 1, z: 1.25 * half / reach },
+        camera: { up: { x: 0, y: 1, z: 0 }, eye: { x: 0.62, y: 0.42, z: 1.15 }, center: { x: 0, y: -0.02, z: 0 } } } };
+  }
+
+  function plate() {
+    const pressure = rowsOf("pressure");
+    const line3d = (title, extra) => Object.assign(axis(title, { gridcolor: theme.line, backgroundcolor: "rgba(0,0,0,0)", showbackground: false,
+      color: theme.soft, titlefont: undefined }), extra);
+    const scene = { xaxis: line3d("Bearing angle [°]", { range: [0, 360], tick0: 0, dtick: 90 }),
+      yaxis: line3d("Axial position [mm]", { range: [-film.half_width, film.half_width] }),
+      zaxis: line3d(withUnit("Film pressure", units.pressure), { range: range("pressure") }),
+      aspectmode: "manual", aspectratio: { x: 1.5, y: 0.8, z: 0.75 },
+      camera: { up: { x: 0, y: 0, z: 1 }, eye: { x: -0.75, y: -1.55, z: 0.85 }, center: { x: 0, y: 0, z: -0.12 } } };
+    for (const name of ["xaxis", "yaxis", "zaxis"]) {
+      for (const unknown of ["automargin", "titlefont", "standoff", "ticklen"]) { delete scene[name][unknown]; }
+      scene[name].title = { text: scene[name].title.text };
+    }
+    return { traces: [surface(film.angle, film.axial, pressure, choice.colour)], scene };
+  }
+
+  const hasSolids = (() => {
+    const canvas = document.createElement("canvas");
+    return Boolean(canvas.getContext("webgl2") ?? canvas.getContext("webgl"));
+  })();
+
+  drawings["film-solid"] = (element) => {
+    if (!hasSolids) {
+      element.innerHTML = "<p class=\"nothing\">This browser draws no bodies (WebGL is off). The maps beside show the same film.</p>";
+      return null;
+    }
+    const { traces, scene } = choice.shape === "bush" ? bush() : plate();
+    // The camera stays where the reader put it while frames pass, and starts anew with another shape.
+    return { traces, layout: layout({}, {}, { scene: Object.assign(scene, { uirevision: choice.shape, bgcolor: "rgba(0,0,0,0)", dragmode: "orbit" }),
+      margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: choice.shape }) };
+  };
+
+  // ---- slider, buttons, read-outs ------------------------------------------------------------
+
+  const slider = document.getElementById("frame");
+  const play = document.getElementById("play");
+  const jumps = document.getElementById("jumps");
+
+  function readOut() {
+    const now = frame();
+    const values = { crank: [now.crank_text, "of the period"], load: [now.load_text, now.load_place], thickness: [now.thickness_text, now.thickness_place],
+      pressure: [now.pressure_text, now.pressure_place], eccentricity: [now.eccentricity_text, now.eccentricity_place] };
+    for (const element of document.querySelectorAll("[data-read]")) {
+      const [value, place] = values[element.dataset.read];
+      const small = document.createElement("small");
+      small.textContent = place;
+      element.replaceChildren(value, small);
+    }
+    if (slider) {
+      slider.value = shown;
+      slider.setAttribute("aria-valuetext", `${now.crank_text}, film ${now.thickness_text}, pressure ${now.pressure_text}`);
+    }
+  }
+
+  const pictures = ["film-solid", "film-pressure", "film-fraction"];
+
+  function show(index) {
+    shown = index;
+    readOut();
+    return report.draw(pictures);
+  }
+
+  let playing = null;
+  function stop() {
+    playing = null;
+    play.classList.remove("playing");
+    play.setAttribute("aria-label", "Play");
+  }
+
+  // The next frame waits for the last one to be drawn, so that a slow machine plays slower and
+  // never falls behind.
+  async function run(token) {
+    while (playing === token) {
+      const start = performance.now();
+      await show((shown + 1) % film.frames.length);
+      const left = 110 - (performance.now() - start);
+      await new Promise((done) => { setTimeout(done, Math.max(left, 16)); });
+    }
+  }
+
+  if (slider) {
+    slider.max = film.frames.length - 1;
+    let waiting = false;
+    slider.addEventListener("input", () => {
+      if (playing) { stop(); }
+      shown = Number(slider.value);
+      readOut();
+      if (waiting) { return; }
+      waiting = true;
+      requestAnimationFrame(async () => {
+        waiting = false;
+        await report.draw(pictures);
+      });
+    });
+    play.addEventListener("click", () => {
+      if (playing) { stop(); return; }
+      playing = {};
+      play.classList.add("playing");
+      play.setAttribute("aria-label", "Pause");
+      run(playing);
+    });
+    for (const { name, frame: target } of film.jumps) {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.textContent = `${name} ${film.frames[target].crank_text}`;
+      button.addEventListener("click", () => { stop(); show(target); });
+      jumps.append(button);
+    }
+  }
+  for (const button of document.querySelectorAll("[data-choice]")) {
+    button.addEventListener("click", () => {
+      choice[button.dataset.choice] = button.dataset.value;
+      for (const other of button.parentElement.children) { other.setAttribute("aria-pressed", String(other === button)); }
+      report.draw(pictures);
+    });
+  }
+  readOut();
+})(globalThis.sommerfeld);

@@ -1,0 +1,68 @@
+"use strict";
+// Maps over the unrolled surface, and what shell and journal have seen.
+((report) => {
+  const { theme, axis, layout, bearingAxis, drawings, unpacked, rows } = report;
+  const { surfaces, units } = report.data;
+
+  // A dark line under a light one is seen on every colour of a map.
+  const onMap = [{ color: "#101418", extra: 2.2 }, { color: "#ffffff", extra: 0 }];
+
+  report.placeMark = (mark, symbol, size) => onMap.map(({ color, extra }) => ({ x: [mark.angle], y: [mark.axial],
+    mode: "markers", showlegend: false, cliponaxis: false, hovertemplate: mark.label + "<extra></extra>",
+    marker: { symbol, size: size + extra, color, line: { color, width: 1.8 + extra } } }));
+
+  // Outlines on a map; one that crosses 0° shows at both ends. `turned` in degrees.
+  report.outlines = (feeds, turned, dash) => feeds.flatMap((feed) => {
+    const isRing = feed.half_length >= 180;
+    const middle = isRing ? 180 : (((feed.angle + turned(feed)) % 360) + 360) % 360;
+    return (isRing ? [0] : [-360, 0, 360])
+      .map((shift) => middle + shift)
+      .filter((centre) => centre + feed.half_length > 0 && centre - feed.half_length < 360)
+      .flatMap((centre) => onMap.map(({ color, extra }) => ({ type: feed.round ? "circle" : "rect",
+        x0: centre - feed.half_length, x1: centre + feed.half_length,
+        y0: feed.axial - feed.half_width, y1: feed.axial + feed.half_width,
+        line: { color, width: 1.4 + extra, dash: extra ? "solid" : dash ?? "solid" } })));
+  });
+
+  report.colourBar = (title) => ({ title: { text: title, side: "right" }, thickness: 12, outlinewidth: 0, len: 1.0,
+    ticks: "outside", ticklen: 3, tickcolor: theme.faint, xpad: 6 });
+
+  // A map: places, values row by row, colours, the words of hover and colour bar, and marks on it.
+  report.map = ({ angle, axial, half, values, scale, range, name, unit, marks, shapes, surface, reversed }) => {
+    const traces = [Object.assign({ type: "heatmap", x: angle, y: axial, z: values, colorscale: scale, reversescale: reversed ?? false,
+      hovertemplate: `angle %{x:.1f}°, axial %{y:.2f} mm<br>${name} %{z:.4~g} ${unit}<extra></extra>`,
+      colorbar: report.colourBar(report.withUnit(name.replace("film ", ""), unit || "–")) }, range), ...(marks ?? [])];
+    const around = surface === "journal" ? axis("Journal angle [°]", { range: [0, 360], tick0: 0, dtick: 45 }) : bearingAxis();
+    return { traces, layout: layout(around, axis("Axial position [mm]", { range: [-half, half], showgrid: false }),
+      { hovermode: "closest", shapes: shapes ?? [], margin: { l: 54, r: 10, t: 10, b: 44 } }) };
+  };
+
+  if (!surfaces) { return; }
+  const kinds = {
+    pressure: { scale: "Viridis", name: "largest pressure", unit: units.pressure, zero: true },
+    thickness: { scale: "Plasma", name: "thinnest film", unit: "µm", reversed: true },
+    amplitude: { scale: "Inferno", name: "pressure amplitude", unit: units.pressure, zero: true },
+    share: { scale: "Cividis", name: "share with full film", unit: "", whole: true },
+  };
+  // Both surfaces carry one scale of colours, so that they compare at a glance.
+  for (const [key, kind] of Object.entries(kinds)) {
+    const [shell, journal] = [surfaces.shell, surfaces.journal].map((surface) => unpacked(surface[key]));
+    const low = Math.min(report.smallest(shell), report.smallest(journal));
+    const high = Math.max(report.largest(shell), report.largest(journal));
+    const range = { zmin: kind.whole || kind.zero ? Math.min(0, low) : low, zmax: kind.whole ? 1 : high };
+    for (const [surface, field] of [["shell", shell], ["journal", journal]]) {
+      drawings[`${surface}-${key}`] = () => {
+        const { angle, axial, feeds } = surfaces[surface];
+        const shapes = report.outlines(feeds, () => 0);
+        const marks = [];
+        if (surface === "journal" && key === "pressure" && surfaces.quiet) {
+          shapes.push(...report.outlines([{ ...surfaces.quiet, round: true }], () => 0, "dot"));
+          marks.push({ x: [surfaces.quiet.angle], y: [0], mode: "markers", hovertemplate: surfaces.quiet.label + "<extra></extra>",
+            marker: { size: 5, color: "#ffffff", line: { color: "#101418", width: 1 } } });
+        }
+        return report.map({ angle, axial, half: surfaces.half_width, values: rows(field, angle.length, axial.length, 0),
+          scale: kind.scale, reversed: kind.reversed, range, name: kind.name, unit: kind.unit, shapes, marks, surface });
+      };
+    }
+  }
+})(globalThis.sommerfeld);

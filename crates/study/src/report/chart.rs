@@ -1,0 +1,60 @@
+//! A plain figure of curves or points that needs no drawing of its own in the script.
+//!
+//! To add one: build a [`Chart`], put `chart.data()` under `"charts"` and its name in the data of
+//! the figures, and list a [`Figure`](super::page::Figure) whose kind is that name.
+
+use super::figures::short;
+use serde_json::{Value, json};
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    /// A line.
+    Line,
+    /// Dots.
+    Dots,
+}
+
+/// One curve of a chart.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Series {
+    /// Its name in the legend.
+    pub name: String,
+    /// Places, in the unit of the axis.
+    pub x: Vec<f64>,
+    /// Values, in the unit of the axis; a gap where not finite.
+    pub y: Vec<f64>,
+    /// How it is drawn.
+    pub mark: Mark,
+}
+
+/// Curves over one axis.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Chart {
+    /// Title of the axis to the right with its unit in brackets.
+    pub x_title: String,
+    /// Title of the axis upwards with its unit in brackets.
+    pub y_title: String,
+    /// The curves.
+    pub series: Vec<Series>,
+}
+
+impl Chart {
+    /// The chart for the script.
+    pub fn data(&self) -> Value {
+        let numbers = |values: &[f64]| values.iter().copied().map(short).collect::<Value>();
+        let series = self.series.iter().map(|series| {
+            json!({
+                "name": series.name,
+                "x": numbers(&series.x),
+                "y": numbers(&series.y),
+                "dots": series.mark == Mark::Dots,
+            })
+        });
+        json!({
+            "x_title": self.x_title,
+            "y_title": self.y_title,
+            "series": series.collect::<Value>(),
+        })
+    }
+}
