@@ -138,10 +138,13 @@ pub struct CycleDuty {
     pub maximum_cycles: usize,
     /// The orbit is closed when two cycles differ by less, over the radial clearance.
     pub closure_tolerance: f64,
+    /// Error allowed to a time step over the usual one: 1, but where a run is repeated with other
+    /// steps to see what they cost.
+    pub step_error_factor: f64,
 }
 
 /// How the film is modelled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmSettings {
     /// The model.
     pub model: FilmModel,
@@ -149,6 +152,9 @@ pub struct FilmSettings {
     pub grid: [usize; 2],
     /// Solver of the linear systems.
     pub linear_solver: LinearSolver,
+    /// Estimated error below which the grid is refined, over the scale of each figure; `None` takes
+    /// the grid as it is.
+    pub relative_error_target: Option<f64>,
 }
 
 /// A model of the film.

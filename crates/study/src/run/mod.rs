@@ -1,5 +1,6 @@
 //! From a checked study to results in a directory: which film, which analysis, what it means.
 
+mod accuracy;
 mod cycle;
 mod inputs;
 mod steady;
@@ -36,6 +37,14 @@ pub struct RunSummary {
     pub files: Vec<PathBuf>,
 }
 
+/// What a run is asked for beside the study.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RunOptions {
+    /// Error bars from other grids and time steps, where the study sets no error target, which has
+    /// them anyway.
+    pub verify: bool,
+}
+
 /// Why a run gave no results.
 #[derive(Debug, Error)]
 pub enum RunError {
@@ -56,9 +65,22 @@ pub fn run(
     directory: &Path,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
+    run_with(study, directory, RunOptions::default(), progress)
+}
+
+/// [`run`] with options.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(
+    study: &Study,
+    directory: &Path,
+    options: RunOptions,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<RunSummary, RunError> {
     // Better told before a long run than after it.
     prepare_directory(directory)?;
-    let results = solve(study, progress)?;
+    let results = solve_with(study, options, progress)?;
     let files = write_all(&results, directory)?;
     Ok(RunSummary { results, files })
 }
@@ -68,7 +90,46 @@ pub fn run(
 /// # Errors
 /// [`FilmError`] where the film refuses what the study asks of it.
 pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Results, FilmError> {
+    solve_with(study, RunOptions::default(), progress)
+}
+
+/// [`solve`] with options.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_with(
+    study: &Study,
+    options: RunOptions,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Results, FilmError> {
     let start = Instant::now();
+    let target = study
+        .film
+        .relative_error_target
+        .filter(|_| study.film.model.is_field());
+    let mut results = match target {
+        Some(target) => accuracy::solve_to_target(study, target, progress)?,
+        None if options.verify => {
+            // The bar is shared with the runs on other grids.
+            let share = 0.6;
+            let mut results = solve_once(study, &mut |event| {
+                progress(ProgressEvent {
+                    done: share * event.done,
+                    ..event
+                })
+            })?;
+            accuracy::add_error_bars(study, &mut results, progress)?;
+            results
+        }
+        None => solve_once(study, progress)?,
+    };
+    results.header.wall_time = start.elapsed().as_secs_f64();
+    results.check_limits(&limits(study));
+    Ok(results)
+}
+
+/// The study as it stands, on one grid.
+fn solve_once(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Results, FilmError> {
     let mut header = header(study);
     let body = match &study.subject {
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
@@ -78,9 +139,11 @@ pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Resul
             Duty::Cycle(duty) => solve_cycle(case, duty, &study.film, &mut header, progress)?,
         },
     };
-    header.wall_time = start.elapsed().as_secs_f64();
-    let mut results = Results { header, body };
-    let limits: Vec<Limit> = study
+    Ok(Results { header, body })
+}
+
+fn limits(study: &Study) -> Vec<Limit> {
+    study
         .limits
         .iter()
         .filter_map(|limit| {
@@ -90,9 +153,7 @@ pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Resul
                 source: limit.source.clone(),
             })
         })
-        .collect();
-    results.check_limits(&limits);
-    Ok(results)
+        .collect()
 }
 
 fn header(study: &Study) -> Header {
@@ -107,6 +168,7 @@ fn header(study: &Study) -> Header {
         study_text: study.text.clone(),
         study_hash: Some(study.input_hash.clone()),
         error: None,
+        grid: study.film.model.is_field().then_some(study.film.grid),
         limits: Vec::new(),
     }
 }

@@ -235,6 +235,7 @@ impl Checker<'_> {
             crank_step: crank_step?,
             maximum_cycles: usize::try_from(maximum_cycles).ok()?,
             closure_tolerance,
+            step_error_factor: 1.0,
         })
     }
 
