@@ -5,7 +5,7 @@ use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
 use sommerfeld_study::results::status_name;
-use sommerfeld_study::{Outcome, RunError, RunSummary};
+use sommerfeld_study::{Outcome, RunError, RunOptions, RunSummary};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -17,7 +17,7 @@ pub struct RunArguments {
     /// Directory of the results [default: beside the study, named after it]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Solve on a second grid and state error bars
+    /// Solve on coarser grids and with longer time steps too, and state error bars
     #[arg(long)]
     pub verify: bool,
     /// Threads to use [default: one for each processor]
@@ -27,13 +27,6 @@ pub struct RunArguments {
 
 /// Checks the study, runs it and tells how it ended.
 pub fn run(arguments: &RunArguments) -> Exit {
-    if arguments.verify {
-        eprintln!(
-            "error: --verify is not built yet in version {}",
-            env!("CARGO_PKG_VERSION")
-        );
-        return Exit::Refused;
-    }
     let study = match commands::read(&arguments.file) {
         Ok(study) => study,
         Err(exit) => return exit,
@@ -44,15 +37,22 @@ pub fn run(arguments: &RunArguments) -> Exit {
         .unwrap_or_else(|| default_directory(&arguments.file));
     let stop = stop_flag();
     let mut progress = Progress::new(stop.clone());
-    let ended = sommerfeld_study::run(&study, &out, &mut |event| progress.show(&event));
+    let options = RunOptions {
+        verify: arguments.verify,
+    };
+    let ended =
+        sommerfeld_study::run_with(&study, &out, options, &mut |event| progress.show(&event));
     progress.finish();
     match ended {
         Ok(summary) => {
             tell(&summary, &out);
-            if stop.load(Ordering::Relaxed) && summary.results.header.status != Outcome::Converged {
+            let header = &summary.results.header;
+            let is_complete = header.status == Outcome::Converged
+                && !(arguments.verify && header.error.is_none());
+            if stop.load(Ordering::Relaxed) && !is_complete {
                 eprintln!("interrupted: run the same command again to finish it");
                 Exit::Interrupted
-            } else if summary.results.header.status == Outcome::Converged {
+            } else if header.status == Outcome::Converged {
                 Exit::Done
             } else {
                 Exit::NotConverged

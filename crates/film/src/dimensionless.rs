@@ -12,6 +12,7 @@
 use crate::bearing::{Bearing, Cavitation, Ends, FilmShear, Inlet};
 use crate::force::{Conditions, FilmError, FilmForce, FilmSummary, Outcome, Reaction, Step};
 use crate::journal_state::JournalState;
+use crate::richardson::{Estimate, Sample, cell_size, estimate, grid_sequence};
 use crate::solver::FilmSolver;
 use serde::{Deserialize, Serialize};
 use sommerfeld_oil::Lubricant;
@@ -149,10 +150,10 @@ impl DimensionlessFilm {
         }
     }
 
-    /// Grading of a following grid that suits the eccentricity, see [`crate::Grid::following`].
+    /// Grading of a following grid that suits the narrowest gap, see [`crate::Grid::following`].
     #[must_use]
     pub fn grading(&self) -> f64 {
-        (self.relative_eccentricity - 0.05).clamp(0.0, 0.95)
+        (0.95 - self.narrowest_gap().relative_film_thickness).clamp(0.0, 0.95)
     }
 }
 
@@ -193,6 +194,123 @@ pub fn solve_dimensionless(
         },
         iterations: fine_iterations + coarse_iterations,
     })
+}
+
+/// Most cells that [`refine_dimensionless`] tries: 512 x 128.
+pub const MOST_CELLS: usize = 1 << 16;
+
+/// A dimensionless film solved to an error.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RefinedSolution {
+    /// The integrals, extrapolated from the last three grids.
+    pub integrals: DimensionlessIntegrals,
+    /// Error of each of them, absolute.
+    pub error: DimensionlessIntegrals,
+    /// The finest grid.
+    pub grid: [usize; 2],
+    /// All errors are within the target.
+    pub reached: bool,
+    /// How the solution ended.
+    pub outcome: Outcome,
+    /// Film updates on all grids.
+    pub iterations: usize,
+}
+
+impl RefinedSolution {
+    /// Errors of the integrals over their scales: forces over the force vector; moments over the larger of
+    /// the moment vector and a tenth of the force, so that moments that vanish by symmetry have a
+    /// scale; the peak over itself.
+    #[must_use]
+    pub fn relative_errors(&self) -> [(&'static str, f64); 5] {
+        let (value, error) = (&self.integrals, &self.error);
+        let force = value.p_cos.hypot(value.p_sin);
+        let moment = value.p_z_cos.hypot(value.p_z_sin).max(0.1 * force);
+        // An error of nothing is none, whatever the scale.
+        let over = |error: f64, scale: f64| if error == 0.0 { 0.0 } else { error / scale };
+        [
+            ("integrals.p_cos", over(error.p_cos, force)),
+            ("integrals.p_sin", over(error.p_sin, force)),
+            ("integrals.p_z_cos", over(error.p_z_cos, moment)),
+            ("integrals.p_z_sin", over(error.p_z_sin, moment)),
+            ("integrals.peak", over(error.peak, value.peak.abs())),
+        ]
+    }
+}
+
+/// Solves `film` on ever finer grids around `first`, at least three and up to [`MOST_CELLS`], until
+/// every error of the extrapolated integrals is below `target`, relative to the scales of
+/// [`RefinedSolution::relative_errors`].
+///
+/// # Errors
+/// [`FilmError::Contact`] where the gap closes.
+pub fn refine_dimensionless(
+    film: &DimensionlessFilm,
+    first: [usize; 2],
+    target: f64,
+) -> Result<RefinedSolution, FilmError> {
+    let mut runs: Vec<([usize; 2], DimensionlessIntegrals)> = Vec::new();
+    let mut refined = RefinedSolution {
+        integrals: DimensionlessIntegrals::default(),
+        error: DimensionlessIntegrals::default(),
+        grid: first,
+        reached: false,
+        outcome: Outcome::Converged,
+        iterations: 0,
+    };
+    for grid in grid_sequence(first) {
+        if runs.len() >= 3 && grid[0] * grid[1] > MOST_CELLS {
+            break;
+        }
+        let (integrals, outcome, iterations) = solve_on(film, grid)?;
+        refined.iterations += iterations;
+        runs.insert(0, (grid, integrals));
+        if outcome != Outcome::Converged {
+            refined.outcome = outcome;
+            refined.grid = grid;
+            refined.integrals = integrals;
+            break;
+        }
+        if let [fine, middle, coarse, ..] = runs[..] {
+            let [value, error] = extrapolated([fine, middle, coarse]);
+            refined.grid = grid;
+            refined.integrals = value;
+            refined.error = error;
+            let mut errors = refined.relative_errors().into_iter();
+            refined.reached = errors.all(|(_, error)| error <= target);
+            if refined.reached {
+                break;
+            }
+        }
+    }
+    Ok(refined)
+}
+
+/// Limits of three runs, the finest first, and their errors.
+fn extrapolated(runs: [([usize; 2], DimensionlessIntegrals); 3]) -> [DimensionlessIntegrals; 2] {
+    let of = |figure: fn(&DimensionlessIntegrals) -> f64| {
+        estimate(runs.map(|(grid, integrals)| Sample {
+            size: cell_size(grid),
+            value: figure(&integrals),
+        }))
+    };
+    let figures = [
+        of(|i| i.p_cos),
+        of(|i| i.p_sin),
+        of(|i| i.p_z_cos),
+        of(|i| i.p_z_sin),
+        of(|i| i.peak),
+    ];
+    let gathered = |of: fn(&Estimate) -> f64| {
+        let [p_cos, p_sin, p_z_cos, p_z_sin, peak] = figures.each_ref().map(of);
+        DimensionlessIntegrals {
+            p_cos,
+            p_sin,
+            p_z_cos,
+            p_z_sin,
+            peak,
+        }
+    };
+    [gathered(|e| e.extrapolated), gathered(|e| e.error)]
 }
 
 fn solve_on(

@@ -25,6 +25,7 @@ pub mod journal_state;
 pub mod linear;
 pub mod mirror;
 pub mod reynolds;
+pub mod richardson;
 pub mod solver;
 pub mod supply;
 

@@ -12,8 +12,9 @@ pub mod results;
 pub mod run;
 pub mod spool;
 pub mod templates;
+pub mod verify;
 
 pub use input::{InputError, InputErrors, Study, load_study};
 pub use progress::ProgressEvent;
-pub use run::{RunError, RunSummary, run, solve};
+pub use run::{RunError, RunOptions, RunSummary, run, run_with, solve, solve_with};
 pub use sommerfeld_film::Outcome;

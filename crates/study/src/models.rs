@@ -149,6 +149,15 @@ pub const MODELS: &[Model] = &[
                     differences. Phil. Trans. R. Soc. A 210, 307-357",
         doi: Some("10.1098/rsta.1911.0009"),
     },
+    Model {
+        family: "error_bar",
+        name: "three-grids",
+        description: "Discretisation errors from three grids: the largest of several shifts towards \
+                      the limit, with a safety factor",
+        reference: "Roache, P. J. (1994): Perspective: a method for uniform reporting of grid \
+                    refinement studies. J. Fluids Eng. 116, 405-413",
+        doi: Some("10.1115/1.2910291"),
+    },
 ];
 
 /// The model of this family and name.

@@ -45,9 +45,11 @@ pub struct Header {
     pub study_text: String,
     /// Hash of the study and the files it names, if one was taken.
     pub study_hash: Option<String>,
-    /// Absolute discretisation error by key of `summary.json` (`integrals.p_cos` for nested keys),
-    /// in the unit of that key, where an error target or a check on a second grid was asked for.
+    /// Absolute discretisation error by key of `summary.json` (`integrals.p_cos` for nested keys,
+    /// `force_n.0` for components), in the unit of that key, where an error target or a check on a second grid was asked for.
     pub error: Option<BTreeMap<String, f64>>,
+    /// Cells around and along the axis of the grid that the results are from; `None` for closed forms.
+    pub grid: Option<[usize; 2]>,
     /// Limits of the study, held against the results by [`Results::check_limits`].
     pub limits: Vec<LimitCheck>,
 }
@@ -258,24 +260,66 @@ impl Results {
     /// The few figures that answer the question of the study, named and with units, for a terminal.
     #[must_use]
     pub fn key_figures(&self) -> Vec<(&'static str, String)> {
+        let bars = ErrorBars(self.header.error.as_ref());
         match &self.body {
-            Body::Steady(steady) => steady.key_figures(),
-            Body::LoadCycle(cycle) => cycle.key_figures(),
+            Body::Steady(steady) => steady.key_figures(bars),
+            Body::LoadCycle(cycle) => cycle.key_figures(bars),
             Body::Dimensionless(integrals) => [
-                ("p cos", integrals.p_cos),
-                ("p sin", integrals.p_sin),
-                ("p Z cos", integrals.p_z_cos),
-                ("p Z sin", integrals.p_z_sin),
-                ("peak", integrals.peak),
+                ("p cos", "p_cos", integrals.p_cos),
+                ("p sin", "p_sin", integrals.p_sin),
+                ("p Z cos", "p_z_cos", integrals.p_z_cos),
+                ("p Z sin", "p_z_sin", integrals.p_z_sin),
+                ("peak", "peak", integrals.peak),
             ]
-            .map(|(name, value)| (name, format!("{value:.7}")))
+            .map(|(name, key, value)| {
+                let bar = bars.text(&format!("integrals.{key}"), 1.0);
+                (name, format!("{value:.7}{bar}"))
+            })
             .to_vec(),
         }
     }
 }
 
+/// Errors of figures as text behind their values.
+#[derive(Debug, Clone, Copy)]
+struct ErrorBars<'a>(Option<&'a BTreeMap<String, f64>>);
+
+impl ErrorBars<'_> {
+    /// ` +- 0.012`, two digits in the unit that one SI unit makes `factor` of; empty without an error.
+    fn text(self, key: &str, factor: f64) -> String {
+        let Some(error) = self.0.and_then(|errors| errors.get(key)) else {
+            return String::new();
+        };
+        format!(" +- {}", two_digits(factor * error))
+    }
+
+    /// The largest error of the components of a matrix.
+    fn largest(self, key: &str) -> String {
+        let inner = format!("{key}.");
+        let components = self.0.into_iter().flatten();
+        let errors = components.filter(|(name, _)| name.starts_with(&inner));
+        errors
+            .map(|(_, error)| *error)
+            .reduce(f64::max)
+            .map_or_else(String::new, |error| format!(" +- {error:.1e} each"))
+    }
+}
+
+/// Two significant digits, without powers of ten where they are readable.
+fn two_digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let exponent = value.abs().log10().floor();
+    if !(-6.0..6.0).contains(&exponent) {
+        return format!("{value:.1e}");
+    }
+    let decimals = (1.0 - exponent).max(0.0) as usize;
+    format!("{value:.decimals$}")
+}
+
 impl SteadyResults {
-    fn key_figures(&self) -> Vec<(&'static str, String)> {
+    fn key_figures(&self, bars: ErrorBars<'_>) -> Vec<(&'static str, String)> {
         let film = &self.summary;
         if film.minimum_film_thickness.value.is_nan() {
             return Vec::new();
@@ -284,27 +328,44 @@ impl SteadyResults {
         let mut figures = vec![
             (
                 "relative eccentricity",
-                format!("{:.5}", self.relative_eccentricity()),
+                format!(
+                    "{:.5}{}",
+                    self.relative_eccentricity(),
+                    bars.text("relative_eccentricity", 1.0)
+                ),
             ),
             (
                 "minimum film thickness",
-                micrometres(film.minimum_film_thickness.value),
+                micrometres(
+                    film.minimum_film_thickness.value,
+                    "minimum_film_thickness_m",
+                    bars,
+                ),
             ),
             (
                 "peak film pressure",
-                megapascals(film.peak_film_pressure.value),
+                megapascals(film.peak_film_pressure.value, "peak_film_pressure_pa", bars),
             ),
-            ("power loss", format!("{:.1} W", film.power_loss())),
-            ("side flow", cubic_centimetres(side_flow)),
+            ("power loss", watts(film.power_loss(), "power_loss_w", bars)),
+            (
+                "side flow",
+                cubic_centimetres(side_flow, "side_flow_m3_s", bars),
+            ),
         ];
-        let rows = |[x, y]: [[f64; 2]; 2], unit| {
+        let rows = |[x, y]: [[f64; 2]; 2], key, unit| {
             format!(
-                "[[{:.4e}, {:.4e}], [{:.4e}, {:.4e}]] {unit}",
-                x[0], x[1], y[0], y[1]
+                "[[{:.4e}, {:.4e}], [{:.4e}, {:.4e}]]{} {unit}",
+                x[0],
+                x[1],
+                y[0],
+                y[1],
+                bars.largest(key)
             )
         };
-        figures.extend(self.stiffness.map(|k| ("stiffness", rows(k, "N/m"))));
-        figures.extend(self.damping.map(|d| ("damping", rows(d, "N s/m"))));
+        let stiffness = self.stiffness.map(|k| rows(k, "stiffness_n_m", "N/m"));
+        let damping = self.damping.map(|d| rows(d, "damping_n_s_m", "N s/m"));
+        figures.extend(stiffness.map(|text| ("stiffness", text)));
+        figures.extend(damping.map(|text| ("damping", text)));
         figures
     }
 
@@ -337,21 +398,32 @@ impl SteadyResults {
 }
 
 impl CycleResults {
-    fn key_figures(&self) -> Vec<(&'static str, String)> {
-        let at = |point: &CyclePoint| format!("at {:.1} deg", point.crank_angle.to_degrees());
+    fn key_figures(&self, bars: ErrorBars<'_>) -> Vec<(&'static str, String)> {
+        let at = |point: &CyclePoint, key| {
+            let bar = bars.text(key, 1.0);
+            format!("at {:.1}{bar} deg", point.crank_angle.to_degrees())
+        };
         let mut figures = Vec::new();
         if let Some(point) = self.minimum_film_thickness() {
             let value = point.summary.minimum_film_thickness.value;
             figures.push((
                 "minimum film thickness",
-                format!("{} {}", micrometres(value), at(point)),
+                format!(
+                    "{} {}",
+                    micrometres(value, "minimum_film_thickness_m", bars),
+                    at(point, "minimum_film_thickness_angle_deg")
+                ),
             ));
         }
         if let Some(point) = self.peak_film_pressure() {
             let value = point.summary.peak_film_pressure.value;
             figures.push((
                 "peak film pressure",
-                format!("{} {}", megapascals(value), at(point)),
+                format!(
+                    "{} {}",
+                    megapascals(value, "peak_film_pressure_pa", bars),
+                    at(point, "peak_film_pressure_angle_deg")
+                ),
             ));
         }
         if figures.is_empty() {
@@ -359,8 +431,9 @@ impl CycleResults {
         }
         let power = self.mean(|point| point.summary.power_loss());
         let flow = self.mean(|point| point.summary.side_flow[0] + point.summary.side_flow[1]);
-        figures.push(("mean power loss", format!("{power:.1} W")));
-        figures.push(("mean side flow", cubic_centimetres(flow)));
+        let power = watts(power, "mean_power_loss_w", bars);
+        let flow = cubic_centimetres(flow, "mean_side_flow_m3_s", bars);
+        figures.extend([("mean power loss", power), ("mean side flow", flow)]);
         let orbit = &self.orbit;
         figures.push((
             "cycles",
@@ -435,16 +508,20 @@ impl CycleResults {
     }
 }
 
-fn micrometres(metres: f64) -> String {
-    format!("{:.4} um", 1e6 * metres)
+fn micrometres(metres: f64, key: &str, bars: ErrorBars<'_>) -> String {
+    format!("{:.4}{} um", 1e6 * metres, bars.text(key, 1e6))
 }
 
-fn megapascals(pascals: f64) -> String {
-    format!("{:.3} MPa", 1e-6 * pascals)
+fn megapascals(pascals: f64, key: &str, bars: ErrorBars<'_>) -> String {
+    format!("{:.3}{} MPa", 1e-6 * pascals, bars.text(key, 1e-6))
 }
 
-fn cubic_centimetres(cubic_metres: f64) -> String {
-    format!("{:.3} cm3/s", 1e6 * cubic_metres)
+fn watts(watts: f64, key: &str, bars: ErrorBars<'_>) -> String {
+    format!("{watts:.1}{} W", bars.text(key, 1.0))
+}
+
+fn cubic_centimetres(cubic_metres: f64, key: &str, bars: ErrorBars<'_>) -> String {
+    format!("{:.3}{} cm3/s", 1e6 * cubic_metres, bars.text(key, 1e6))
 }
 
 /// Length of a plane vector, in its unit.

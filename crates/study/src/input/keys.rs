@@ -115,7 +115,8 @@ pub const KEYS: &[Key] = &[
     key("film.film_shear", Choice(&["full-width", "film-fraction"], &[]), Optional, PHYSICAL,
         "Shear in the ruptured film: as if full, or weighted by the film fraction. Default: film-fraction for mass-conserving, else full-width.", "\"film-fraction\""),
     key("film.linear_solver", Choice(&["auto", "banded"], &["multigrid"]), Default("auto"), ALL, "Solver of the linear systems.", "\"auto\""),
-    planned("film.relative_error_target", "Discretisation error below which the grid is refined."),
+    key("film.relative_error_target", Number(Range::between(1e-6, 0.1, "")), Optional, ALL,
+        "Refine the grid, from half of film.grid on, and extrapolate until the estimated discretisation error of every figure is below this: relative to the force or moment vector, the flow, a radian, else to the figure. Load cycles refine their time step too and extrapolate nothing. At most 512 x 128 cells (load cycles 256 x 64 and a quarter of crank_step) or 8 times film.grid in each direction; a figure that misses the target there is named in the messages with its error, and the run still counts as converged.", "1e-3"),
 
     key("operation", Table, Required, &[Film, Dimensionless, Equilibrium, Coefficients], "How the bearing runs.", ""),
     key("operation.speed", Quantity(Dimension::AngularSpeed, SPEED), Required, OPERATED, "Angular speed of the journal, relative to the frame of the loads.", "\"2000 rpm\""),

@@ -140,6 +140,9 @@ pub struct CycleDuty {
     pub closure_tolerance: f64,
     /// Instants of which `results.h5` holds the fields.
     pub stored_fields: StoredInstants,
+    /// Error allowed to a time step over the usual one: 1, but where a run is repeated with other
+    /// steps to see what they cost.
+    pub step_error_factor: f64,
 }
 
 /// Instants of a cycle of which `results.h5` holds the fields.
@@ -154,7 +157,7 @@ pub enum StoredInstants {
 }
 
 /// How the film is modelled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilmSettings {
     /// The model.
     pub model: FilmModel,
@@ -162,6 +165,9 @@ pub struct FilmSettings {
     pub grid: [usize; 2],
     /// Solver of the linear systems.
     pub linear_solver: LinearSolver,
+    /// Estimated error below which the grid is refined, over the scale of each figure; `None` takes
+    /// the grid as it is.
+    pub relative_error_target: Option<f64>,
 }
 
 /// A model of the film.

@@ -48,6 +48,9 @@ pub fn summary(results: &Results) -> Value {
     if let Value::Object(body) = body {
         object.extend(body);
     }
+    if let Some(grid) = results.header.grid {
+        object.insert("grid".into(), json!(grid));
+    }
     if let Some(error) = &results.header.error {
         object.insert("error".into(), nested(error));
     }
@@ -187,16 +190,30 @@ fn dimensionless_keys(integrals: &DimensionlessResults) -> Value {
     })
 }
 
-/// Dotted keys as nested objects.
+/// Dotted keys as nested objects; where the parts are indices, as arrays.
 fn nested(values: &BTreeMap<String, f64>) -> Value {
-    let mut object = json!({});
+    let mut groups: BTreeMap<&str, BTreeMap<String, f64>> = BTreeMap::new();
+    let mut object = Map::new();
     for (key, value) in values {
         match key.split_once('.') {
-            Some((outer, inner)) => object[outer][inner] = json!(value),
-            None => object[key.as_str()] = json!(value),
+            Some((outer, inner)) => {
+                let group = groups.entry(outer).or_default();
+                group.insert(inner.to_owned(), *value);
+            }
+            None => {
+                object.insert(key.clone(), json!(value));
+            }
         }
     }
-    object
+    for (outer, group) in groups {
+        object.insert(outer.to_owned(), nested(&group));
+    }
+    if !object.is_empty() && (0..object.len()).all(|k| object.contains_key(&k.to_string())) {
+        return (0..object.len())
+            .map(|k| object[&k.to_string()].clone())
+            .collect();
+    }
+    Value::Object(object)
 }
 
 #[cfg(test)]
@@ -204,13 +221,21 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_nest_at_the_dot() {
+    fn errors_nest_at_their_dots() {
         let errors = BTreeMap::from([
             ("integrals.p_cos".to_owned(), 1e-3),
             ("integrals.peak".to_owned(), f64::NAN),
             ("power_loss_w".to_owned(), 0.5),
+            ("k.0.0".to_owned(), 1.0),
+            ("k.0.1".to_owned(), 2.0),
+            ("k.1.0".to_owned(), 3.0),
+            ("k.1.1".to_owned(), 4.0),
         ]);
-        let expected = json!({"integrals": {"p_cos": 1e-3, "peak": null}, "power_loss_w": 0.5});
+        let expected = json!({
+            "integrals": {"p_cos": 1e-3, "peak": null},
+            "power_loss_w": 0.5,
+            "k": [[1.0, 2.0], [3.0, 4.0]],
+        });
         assert_eq!(nested(&errors), expected);
     }
 }

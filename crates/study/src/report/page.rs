@@ -504,8 +504,15 @@ pub(crate) fn limit_cells(
     ]
 }
 
-/// The error of a key of `summary.json` in a reading unit.
+/// The error of a key of `summary.json` in a reading unit; of a vector, those of its components.
 pub(crate) fn error(header: &Header, key: &str, unit: format::Unit) -> Option<String> {
-    let value = header.error.as_ref()?.get(key)?;
-    Some(unit.rough(*value))
+    let errors = header.error.as_ref()?;
+    if let Some(value) = errors.get(key) {
+        return Some(unit.rough(*value));
+    }
+    let components = [0, 1].map(|k| errors.get(&format!("{key}.{k}")));
+    let [Some(x), Some(y)] = components else {
+        return None;
+    };
+    Some(format!("{}, {}", unit.rough(*x), unit.rough(*y)))
 }

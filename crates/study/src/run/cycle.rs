@@ -45,11 +45,14 @@ pub(super) fn solve_cycle(
         note_outcome(Outcome::Starved, header);
         return Ok(Body::LoadCycle(Box::new(no_orbit)));
     }
+    let usual = OrbitSettings::default();
     let orbit_settings = OrbitSettings {
+        error_tolerance: usual.error_tolerance * duty.step_error_factor,
+        history_error_tolerance: usual.history_error_tolerance * duty.step_error_factor,
         crank_step: duty.crank_step,
         cycle_limit: duty.maximum_cycles,
         closure_tolerance: duty.closure_tolerance,
-        ..OrbitSettings::default()
+        ..usual
     };
     let points = orbit_settings.points_per_cycle(&duty.cycle);
     let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure, spool);

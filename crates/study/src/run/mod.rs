@@ -1,5 +1,6 @@
 //! From a checked study to results in a directory: which film, which analysis, what it means.
 
+mod accuracy;
 mod cycle;
 mod inputs;
 mod record;
@@ -40,6 +41,14 @@ pub struct RunSummary {
     pub files: Vec<PathBuf>,
 }
 
+/// What a run is asked for beside the study.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RunOptions {
+    /// Error bars from other grids and time steps, where the study sets no error target, which has
+    /// them anyway.
+    pub verify: bool,
+}
+
 /// Why a run gave no results.
 #[derive(Debug, Error)]
 pub enum RunError {
@@ -60,6 +69,19 @@ pub fn run(
     directory: &Path,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
+    run_with(study, directory, RunOptions::default(), progress)
+}
+
+/// [`run`] with options.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_with(
+    study: &Study,
+    directory: &Path,
+    options: RunOptions,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<RunSummary, RunError> {
     // Better told before a long run than after it.
     prepare_directory(directory)?;
     let failed = |source| OutputError::Disk {
@@ -72,7 +94,7 @@ pub fn run(
         StoredInstants::All => Some(FieldSpool::create(directory).map_err(failed)?),
         StoredInstants::Frames | StoredInstants::None => None,
     };
-    let results = solve_into(study, spool.as_mut(), progress)?;
+    let results = solve_into(study, options, spool.as_mut(), progress)?;
     if let Some(error) = spool.as_mut().and_then(FieldSpool::failure) {
         return Err(failed(error).into());
     }
@@ -90,24 +112,76 @@ pub fn run(
 /// # Errors
 /// [`FilmError`] where the film refuses what the study asks of it.
 pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Results, FilmError> {
-    solve_into(study, None, progress)
+    solve_into(study, RunOptions::default(), None, progress)
 }
 
-/// The instants whose fields a study stores.
+/// The instants whose fields a study stores. With an error target the run that is kept is known only
+/// in the end: it has frames.
 fn stored_instants(study: &Study) -> StoredInstants {
     match study.bearing_case().map(|case| &case.duty) {
-        Some(Duty::Cycle(duty)) if study.film.model.is_field() => duty.stored_fields,
+        Some(Duty::Cycle(duty)) if study.film.model.is_field() => match duty.stored_fields {
+            StoredInstants::All if study.film.relative_error_target.is_some() => {
+                StoredInstants::Frames
+            }
+            instants => instants,
+        },
         _ => StoredInstants::None,
     }
+}
+
+/// [`solve`] with options.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_with(
+    study: &Study,
+    options: RunOptions,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Results, FilmError> {
+    solve_into(study, options, None, progress)
 }
 
 /// Runs `study` with the fields of every crank angle into a spool, if there is one.
 fn solve_into(
     study: &Study,
+    options: RunOptions,
     spool: Option<&mut FieldSpool>,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Results, FilmError> {
     let start = Instant::now();
+    let target = study
+        .film
+        .relative_error_target
+        .filter(|_| study.film.model.is_field());
+    let mut results = match target {
+        Some(target) => accuracy::solve_to_target(study, target, progress)?,
+        None if options.verify => {
+            // The bar is shared with the runs on other grids.
+            let share = 0.6;
+            let mut results = solve_once(study, spool, &mut |event| {
+                progress(ProgressEvent {
+                    done: share * event.done,
+                    ..event
+                })
+            })?;
+            accuracy::add_error_bars(study, &mut results, progress)?;
+            results
+        }
+        None => solve_once(study, spool, progress)?,
+    };
+    results.header.wall_time = start.elapsed().as_secs_f64();
+    results.check_limits(&limits(study));
+    let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
+    results.header.messages.extend(beyond_laminar);
+    Ok(results)
+}
+
+/// The study as it stands, on one grid.
+fn solve_once(
+    study: &Study,
+    spool: Option<&mut FieldSpool>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Results, FilmError> {
     let mut header = header(study);
     let body = match &study.subject {
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
@@ -119,9 +193,11 @@ fn solve_into(
             }
         },
     };
-    header.wall_time = start.elapsed().as_secs_f64();
-    let mut results = Results { header, body };
-    let limits: Vec<Limit> = study
+    Ok(Results { header, body })
+}
+
+fn limits(study: &Study) -> Vec<Limit> {
+    study
         .limits
         .iter()
         .filter_map(|limit| {
@@ -131,11 +207,7 @@ fn solve_into(
                 source: limit.source.clone(),
             })
         })
-        .collect();
-    results.check_limits(&limits);
-    let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
-    results.header.messages.extend(beyond_laminar);
-    Ok(results)
+        .collect()
 }
 
 fn header(study: &Study) -> Header {
@@ -150,6 +222,7 @@ fn header(study: &Study) -> Header {
         study_text: study.text.clone(),
         study_hash: Some(study.input_hash.clone()),
         error: None,
+        grid: study.film.model.is_field().then_some(study.film.grid),
         limits: Vec::new(),
     }
 }

@@ -88,6 +88,7 @@ pub fn header(analysis: &str, title: &str) -> Header {
                 .into(),
         study_hash: Some("0123456789abcdef".into()),
         error: None,
+        grid: Some([128, 32]),
         limits: Vec::new(),
     }
 }

@@ -242,6 +242,7 @@ impl Checker<'_> {
                 "none" => StoredInstants::None,
                 _ => StoredInstants::All,
             },
+            step_error_factor: 1.0,
         })
     }
 
