@@ -167,7 +167,9 @@ impl<W: Write + Seek> Layout<W> {
                 let inner = self.file.group(group, key)?;
                 self.numbers(inner, value)?;
             } else if let Some((shape, values)) = array_of(value) {
-                self.add(group, key, unit_of(key), &shape, &values)?;
+                let node = self.add(group, key, unit_of(key), &shape, &values)?;
+                let name = words_of(key);
+                self.file.set(node, "long_name", name.as_str());
             }
         }
         Ok(())
@@ -394,38 +396,46 @@ fn array_of(value: &Value) -> Option<(Vec<usize>, Vec<f64>)> {
     }
 }
 
+/// Ends of the keys of a summary and the units they stand for. Longer ends come first, as shorter ones
+/// are part of them.
+const UNITS: [(&str, &str); 22] = [
+    ("_n_m_s_rad", "N.m.s/rad"),
+    ("_n_s_rad", "N.s/rad"),
+    ("_n_m_rad", "N.m/rad"),
+    ("_n_s_m", "N.s/m"),
+    ("_n_rad", "N/rad"),
+    ("_rad_s", "rad/s"),
+    ("_kg_m3", "kg/m3"),
+    ("_m3_s", "m3/s"),
+    ("_pa_s", "Pa.s"),
+    ("_n_m", "N.m"),
+    ("_m_s", "m/s"),
+    ("_degc", "degC"),
+    ("_deg", "deg"),
+    ("_rad", "rad"),
+    ("_rpm", "rpm"),
+    ("_hz", "Hz"),
+    ("_pa", "Pa"),
+    ("_kg", "kg"),
+    ("_w", "W"),
+    ("_n", "N"),
+    ("_s", "s"),
+    ("_m", "m"),
+];
+
 /// The unit that the key of a summary ends in, spelt for readers; `1` if it ends in none.
 fn unit_of(key: &str) -> &'static str {
-    /// Longer ends first, as the shorter ones are part of them.
-    const UNITS: [(&str, &str); 22] = [
-        ("_n_m_s_rad", "N.m.s/rad"),
-        ("_n_s_rad", "N.s/rad"),
-        ("_n_m_rad", "N.m/rad"),
-        ("_n_s_m", "N.s/m"),
-        ("_n_rad", "N/rad"),
-        ("_rad_s", "rad/s"),
-        ("_kg_m3", "kg/m3"),
-        ("_m3_s", "m3/s"),
-        ("_pa_s", "Pa.s"),
-        ("_n_m", "N.m"),
-        ("_m_s", "m/s"),
-        ("_degc", "degC"),
-        ("_deg", "deg"),
-        ("_rad", "rad"),
-        ("_rpm", "rpm"),
-        ("_hz", "Hz"),
-        ("_pa", "Pa"),
-        ("_kg", "kg"),
-        ("_w", "W"),
-        ("_n", "N"),
-        ("_s", "s"),
-        ("_m", "m"),
-    ];
     if key.starts_with("stiffness") && key.ends_with("_n_m") {
         return "N/m";
     }
     let found = UNITS.iter().find(|(end, _)| key.ends_with(end));
     found.map_or("1", |(_, unit)| unit)
+}
+
+/// A key of a summary in words, without its unit.
+fn words_of(key: &str) -> String {
+    let found = UNITS.iter().find_map(|(end, _)| key.strip_suffix(end));
+    found.unwrap_or(key).replace('_', " ")
 }
 
 #[cfg(test)]
@@ -450,6 +460,12 @@ mod tests {
         ] {
             assert_eq!(unit_of(key), unit, "{key}");
         }
+    }
+
+    #[test]
+    fn names_are_words_without_units() {
+        assert_eq!(words_of("power_loss_w"), "power loss");
+        assert_eq!(words_of("steps"), "steps");
     }
 
     #[test]

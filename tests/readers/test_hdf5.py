@@ -1,0 +1,209 @@
+"""results.h5 as h5py reads it, against the tables and the summary of the same run."""
+
+import os
+import re
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+import pytest
+
+from conftest import ROOT
+
+# Single precision of the fields over crank angle.
+SINGLE = 1e-7
+
+
+def datasets(file):
+    found = {}
+    file.visititems(lambda name, node: found.update({name: node} if isinstance(node, h5py.Dataset) else {}))
+    return found
+
+
+def film_force(pressure, angle, axial, bearing):
+    """What the pressure does to the journal, N, by cell areas: faces lie where the centres demand."""
+
+    def widths(centres, start):
+        faces = [start]
+        for centre in centres:
+            faces.append(2 * centre - faces[-1])
+        return np.diff(faces)
+
+    width, radius = bearing["width"][()], bearing["diameter"][()] / 2
+    phi = np.radians(angle[:])
+    area = radius * np.outer(widths(phi, 0.0), widths(axial[:], -width / 2))
+    load = pressure * area
+    return -np.array([(load * np.cos(phi)[:, None]).sum(), (load * np.sin(phi)[:, None]).sum()])
+
+
+@pytest.mark.parametrize("name", ["steady", "cycle", "cycle_frames", "dimensionless"])
+def test_every_dataset_says_what_it_is(name, request):
+    results = request.getfixturevalue(name)
+    with h5py.File(results.path("results.h5")) as file:
+        for key in ["program", "version", "analysis", "status", "title", "study", "study_hash"]:
+            assert isinstance(file.attrs[key], str), key
+        assert file.attrs["program"] == "sommerfeld"
+        assert file.attrs["schema"] == 1
+        assert file.attrs["status"] == results.summary["status"]
+        assert file.attrs["study"].count("\n") > 5
+        assert len(file.attrs["models"]) == len(results.summary["models"])
+        found = datasets(file)
+        assert len(found) > 5
+        for path, dataset in found.items():
+            assert isinstance(dataset.attrs["units"], str) and dataset.attrs["units"], path
+            assert isinstance(dataset.attrs["long_name"], str), path
+            assert dataset.dtype.kind == "f", path
+            if dataset.ndim > 1 and not path.startswith("summary"):
+                assert all(len(dimension) == 1 for dimension in dataset.dims), path
+            if dataset.size >= 256:
+                assert dataset.chunks and dataset.shuffle and dataset.compression == "gzip", path
+
+
+def test_numbers_are_those_of_the_summary(steady, cycle, dimensionless):
+    for results in [steady, cycle, dimensionless]:
+        with h5py.File(results.path("results.h5")) as file:
+            compare(file["summary"], results.summary)
+
+
+def compare(group, summary):
+    for key, value in summary.items():
+        if isinstance(value, dict) and key != "error":
+            compare(group[key], value)
+        elif isinstance(value, (int, float)) and not isinstance(value, bool):
+            assert group[key][()] == value, key
+            if key.endswith("_pa"):
+                assert group[key].attrs["units"] == "Pa"
+
+
+def test_the_cycle_is_that_of_the_table(cycle):
+    table = cycle.table("cycle.csv")
+    with h5py.File(cycle.path("results.h5")) as file:
+        assert len(file["cycle"]) == len(table) + 1
+        for column, values in table.items():
+            name, unit = re.fullmatch(r"(.*)\[(.*)\]", column).groups()
+            dataset = file["cycle"][name]
+            assert np.array_equal(dataset[:], values, equal_nan=True), column
+            assert dataset.attrs["units"] == {"-": "1"}.get(unit, unit)
+            if name != "crank_angle":
+                assert dataset.dims[0][0] == file["cycle/crank_angle"]
+        assert np.all(file["cycle/converged"][:] == 1.0)
+
+
+def test_fields_belong_to_the_cycle(cycle):
+    with h5py.File(cycle.path("results.h5")) as file:
+        pressure, thickness = file["fields/pressure"], file["fields/film_thickness"]
+        crank = file["fields/crank_angle"][:]
+        assert pressure.shape == (180, 48, 12) and pressure.dtype == np.float32
+        assert [d[0].name for d in pressure.dims] == [
+            "/fields/crank_angle",
+            "/fields/angle",
+            "/fields/axial",
+        ]
+        # The cycle shows both its ends, the fields its last.
+        assert np.allclose(crank, file["cycle/crank_angle"][1:], atol=1e-9)
+        peak, least = file["cycle/peak_film_pressure"][1:], file["cycle/minimum_film_thickness"][1:]
+        # The summary sees extremes between cells too: these bound those of the cells.
+        cells = pressure[:].max(axis=(1, 2))
+        assert np.all(cells <= peak * (1 + SINGLE))
+        assert abs(cells.max() / peak.max() - 1) < 0.05
+        assert np.all(thickness[:].min(axis=(1, 2)) >= least * (1 - SINGLE))
+        fraction = file["fields/film_fraction"][:]
+        assert fraction.min() >= 0 and fraction.max() <= 1
+        assert np.all(pressure[:][fraction < 1] == 0)
+
+
+def test_the_pressure_carries_the_load(cycle, steady):
+    with h5py.File(cycle.path("results.h5")) as file:
+        fields, table = file["fields"], file["cycle"]
+        largest = np.hypot(table["load_x"][:], table["load_y"][:]).max()
+        for number in range(0, 180, 15):
+            force = film_force(fields["pressure"][number], fields["angle"], fields["axial"], file["bearing"])
+            expected = np.array([table["force_x"][number + 1], table["force_y"][number + 1]])
+            # A coarse grid: the cell's mean of the cosine differs from its centre by 7e-4.
+            assert np.abs(force - expected).max() < 2e-3 * largest
+    with h5py.File(steady.path("results.h5")) as file:
+        film = file["film"]
+        force = film_force(film["pressure"][:], film["angle"], film["axial"], file["bearing"])
+        assert np.abs(force - file["summary/force_n"][:]).max() < 2e-3 * 50e3
+
+
+def test_the_steady_film_is_that_of_the_table(steady):
+    table = steady.table("film.csv")
+    with h5py.File(steady.path("results.h5")) as file:
+        for column, name in [
+            ("pressure[Pa]", "pressure"),
+            ("film_fraction[-]", "film_fraction"),
+            ("film_thickness[m]", "film_thickness"),
+        ]:
+            assert np.array_equal(file["film"][name][:].ravel(), table[column])
+        assert file["limits/minimum_film_thickness"].attrs["verdict"] == "ok"
+        assert file["limits/minimum_film_thickness/limit"][()] == 4e-6
+
+
+def test_accumulated_maps_follow_from_the_fields(cycle):
+    with h5py.File(cycle.path("results.h5")) as file:
+        shell, journal = file["accumulated/shell"], file["accumulated/journal"]
+        pressure = file["fields/pressure"][:]
+        scale = pressure.max()
+        amplitude = (pressure.max(axis=0) - pressure.min(axis=0)) / 2
+        assert np.abs(shell["maximum_pressure"][:] - pressure.max(axis=0)).max() < SINGLE * scale
+        assert np.abs(shell["pressure_amplitude"][:] - amplitude).max() < SINGLE * scale
+        thinnest = file["fields/film_thickness"][:].min(axis=0)
+        assert np.allclose(shell["minimum_film_thickness"][:], thinnest, rtol=SINGLE)
+        full = ((file["fields/film_fraction"][:] >= 1) & (pressure > 0)).mean(axis=0)
+        assert np.allclose(shell["full_film_share"][:], full, atol=1e-12)
+        # Interpolation cuts peaks and never adds to them.
+        assert 0.9 * scale < journal["maximum_pressure"][:].max() <= scale * (1 + SINGLE)
+        share = journal["full_film_share"][:]
+        assert share.min() >= 0 and share.max() <= 1 + 1e-12
+
+
+def test_the_journal_sees_what_turns_by(cycle):
+    """The map of the journal from the fields, turned by the integral of the journal's speed."""
+    with h5py.File(cycle.path("results.h5")) as file:
+        fields, table = file["fields"], file["cycle"]
+        time = np.radians(table["crank_angle"][:]) / (2000 * np.pi / 30)
+        speed = table["journal_speed"][:]
+        turned = np.concatenate([[0], np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(time))])[1:]
+        angle = np.radians(fields["angle"][:])
+        largest = np.zeros((48, 12))
+        for number, turn in enumerate(turned):
+            for j in range(12):
+                row = fields["pressure"][number][:, j]
+                seen = np.interp(angle + turn, angle, row, period=2 * np.pi)
+                largest[:, j] = np.maximum(largest[:, j], seen)
+        found = file["accumulated/journal/maximum_pressure"][:]
+        # The speed is only known at the rows of the table.
+        assert np.abs(found - largest).max() < 0.02 * largest.max()
+
+
+def test_frames_are_a_choice(cycle, cycle_frames):
+    with h5py.File(cycle.path("results.h5")) as every, h5py.File(cycle_frames.path("results.h5")) as few:
+        crank, found = every["fields/crank_angle"][:], few["fields/crank_angle"][:]
+        assert found.shape == (72,)
+        places = [np.abs(crank - angle).argmin() for angle in found]
+        assert np.array_equal(every["fields/pressure"][:][places], few["fields/pressure"][:])
+        assert set(np.diff(places)) == {2, 3}
+
+
+def test_nothing_half_is_left(cycle):
+    names = [path.name for path in cycle.directory.rglob("*")]
+    assert not [name for name in names if name.endswith(".part")]
+
+
+def test_the_recipe_of_the_readme_runs(cycle):
+    readme = (ROOT / "README.md").read_text()
+    recipes = [block for block in re.findall(r"```python\n(.*?)```", readme, re.S) if "results.h5" in block]
+    assert len(recipes) == 1
+    ended = subprocess.run(
+        [sys.executable, "-c", recipes[0]],
+        cwd=cycle.directory,
+        env=os.environ,
+        capture_output=True,
+        text=True,
+    )
+    assert ended.returncode == 0, ended.stderr
+    megapascals = float(re.search(r"([\d.]+) MPa", ended.stdout).group(1))
+    peak = cycle.summary["peak_film_pressure_pa"]
+    assert 0.95 * peak < 1e6 * megapascals <= 1.001 * peak, ended.stdout
