@@ -35,6 +35,8 @@ pub(super) struct Chart {
     pub x_title: String,
     /// Title of the axis upwards with its unit in brackets.
     pub y_title: String,
+    /// Ends of the axis upwards; none to follow the curves.
+    pub y_range: Option<[f64; 2]>,
     /// The curves.
     pub series: Vec<Series>,
 }
@@ -54,6 +56,7 @@ impl Chart {
         json!({
             "x_title": self.x_title,
             "y_title": self.y_title,
+            "y_range": self.y_range,
             "series": series.collect::<Value>(),
         })
     }

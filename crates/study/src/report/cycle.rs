@@ -299,8 +299,9 @@ fn over_the_cycle(cycle: &CycleResults) -> Section {
         figure(
             "place-around",
             "Where around the shell",
-            "Angles of the thinnest film and of the peak pressure. The peak runs ahead of the \
-             thinnest film, and both jump where the journal crosses the clearance.",
+            "Angles of the thinnest film and of the peak pressure. Where the journal turns in its \
+             place the peak lies upstream of the thinnest film; where it moves across the clearance \
+             both lie ahead of it.",
         ),
     ];
     if moves_along(cycle) {
@@ -392,10 +393,11 @@ fn charts(cycle: &CycleResults, units: &Units) -> Value {
         y: over(value),
         mark,
     };
-    let chart = |y_title: &str, series| {
+    let chart = |y_title: &str, y_range, series| {
         Chart {
             x_title: "Crank angle [°]".to_owned(),
             y_title: y_title.to_owned(),
+            y_range,
             series,
         }
         .data()
@@ -404,12 +406,13 @@ fn charts(cycle: &CycleResults, units: &Units) -> Value {
         |name: &str, value: &dyn Fn(usize) -> f64| series(name.to_owned(), Mark::Dots, value);
     let thinnest = |i: usize| &points[i].summary.minimum_film_thickness;
     let highest = |i: usize| &points[i].summary.peak_film_pressure;
+    let edge = 500.0 * cycle.bearing.width;
     let mut charts = json!({
-        "place-around": chart("Bearing angle [°]", vec![
+        "place-around": chart("Bearing angle [°]", Some([0.0, 360.0]), vec![
             dots("thinnest film", &|i| place(thinnest(i)).0),
             dots("peak pressure", &|i| place(highest(i)).0),
         ]),
-        "place-along": chart("Axial position [mm]", vec![
+        "place-along": chart("Axial position [mm]", Some([-edge, edge]), vec![
             dots("thinnest film", &|i| place(thinnest(i)).1),
             dots("peak pressure", &|i| place(highest(i)).1),
         ]),
@@ -423,7 +426,7 @@ fn charts(cycle: &CycleResults, units: &Units) -> Value {
             })
         });
         let title = format!("Flow [{}]", units.flow.symbol);
-        charts["feed-flows"] = chart(&title, flows.collect());
+        charts["feed-flows"] = chart(&title, None, flows.collect());
     }
     charts
 }

@@ -2,14 +2,12 @@
 
 use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
-use super::page::{Cell, Table, error, headline, last_iterates, limit_cells};
+use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
 use crate::limits::Quantity;
 use crate::regime::FlowRegime;
-use crate::results::{
-    CycleResults, Header, degrees, degrees_around, magnitude, place, specific_load,
-};
+use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use sommerfeld_bearing::CyclePoint;
-use sommerfeld_film::{Carrier, Extreme, Feed, FeedFlow, FeedShape, FilmSummary, Outcome};
+use sommerfeld_film::{Extreme, Feed, FeedFlow, FilmSummary, Outcome};
 
 /// So many rows that did not converge are listed; the table of the cycle names all of them.
 const LISTED_ROWS: usize = 24;
@@ -247,19 +245,9 @@ fn means(header: &Header, cycle: &CycleResults, units: &Units) -> Table {
     }
 }
 
-/// A groove or hole in a few words.
+/// The number and the words of a groove or hole.
 pub(super) fn feed_name(feed: &Feed, index: usize) -> String {
-    let shape = match feed.shape {
-        FeedShape::Hole { .. } => "hole",
-        FeedShape::Rectangle { .. } => "groove",
-        FeedShape::Circumferential { .. } => "groove all around",
-    };
-    let carrier = match feed.carried_by {
-        Carrier::Shell => "shell",
-        Carrier::Journal => "journal",
-    };
-    let at = angle(degrees_around(feed.angle));
-    format!("{}: {shape} in the {carrier} at {at}", index + 1)
+    format!("{}: {}", index + 1, feed_words(feed))
 }
 
 /// Mean, largest and smallest flow of each groove and hole.

@@ -2,7 +2,7 @@
 //! reader asks of each instant.
 
 use super::figures::{mid_plane, outline, place_mark, short};
-use super::format::{MICROMETRE, Units, angle, significant};
+use super::format::{MICROMETRE, Units, angle, plain_number, significant};
 use super::packing::{Blocks, Depth, Keep, packed};
 use super::page::FilmPart;
 use crate::results::{
@@ -80,18 +80,22 @@ pub(super) fn third(axial: f64, width: f64) -> &'static str {
     }
 }
 
-/// The place of an extreme in words.
+/// The place of an extreme in words: bearing angle, and the third of the width.
 pub(super) fn in_film(extreme: &Extreme, width: f64) -> String {
     if !extreme.value.is_finite() {
         return String::new();
     }
     let (degrees, axial) = place(extreme);
-    let third = third(extreme.axial, width);
-    format!(
-        "at {} of the shell, {third} (z = {} mm)",
-        angle(degrees),
-        significant(axial)
-    )
+    let along = if axial == 0.0 {
+        "mid-plane".to_owned()
+    } else {
+        format!(
+            "{}, z = {} mm",
+            third(extreme.axial, width),
+            plain_number(axial)
+        )
+    };
+    format!("at {}, {along}", angle(degrees))
 }
 
 /// The words around the pictures of the film.
@@ -131,8 +135,9 @@ pub(super) fn part(bearing: &Bearing, first: &FieldSnapshot, frames: usize) -> F
                 the journal. Drag to turn, scroll to zoom."
             .to_owned(),
         pressure: format!(
-            "Bearing surface unrolled, angle from +X of the shell frame in the sense of rotation. \
-             Ring: peak pressure; cross: thinnest film.{feeds}"
+            "Bearing surface unrolled, angle from +X of the shell frame in the sense of rotation, \
+             axial position from the mid-plane: front negative, rear positive. Ring: peak \
+             pressure; cross: thinnest film.{feeds}"
         ),
         fraction: format!(
             "1 where oil fills the gap, below 1 where the film is ruptured. Cross: thinnest \

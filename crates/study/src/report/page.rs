@@ -3,9 +3,9 @@
 use super::format;
 use super::spark::Spark;
 use crate::limits::{LimitCheck, Quantity, Side, Verdict};
-use crate::results::{Header, VERSION, status_name};
+use crate::results::{Header, VERSION, degrees_around, status_name};
 use serde::Serialize;
-use sommerfeld_film::{Bearing, Outcome};
+use sommerfeld_film::{Bearing, Carrier, Feed, FeedShape, Outcome};
 
 /// The whole page.
 #[derive(Debug, Serialize)]
@@ -274,6 +274,24 @@ pub(crate) fn exact(value: f64) -> String {
     }
 }
 
+/// So many grooves and holes are named in the line about the bearing.
+const LISTED_FEEDS: usize = 2;
+
+/// A groove or hole in a few words.
+pub(crate) fn feed_words(feed: &Feed) -> String {
+    let shape = match feed.shape {
+        FeedShape::Hole { .. } => "hole",
+        FeedShape::Rectangle { .. } => "groove",
+        FeedShape::Circumferential { .. } => "groove all around",
+    };
+    let carrier = match feed.carried_by {
+        Carrier::Shell => "shell",
+        Carrier::Journal => "journal",
+    };
+    let at = format::angle(degrees_around(feed.angle));
+    format!("{shape} in the {carrier} at {at}")
+}
+
 /// The bearing in a line.
 pub(crate) fn subject(bearing: &Bearing) -> String {
     let millimetres = |metres: f64| format::plain_number(metres * 1e3);
@@ -284,10 +302,11 @@ pub(crate) fn subject(bearing: &Bearing) -> String {
         format::plain_number(bearing.radial_clearance * 1e6),
         format::plain_number(bearing.relative_clearance() * 1e3)
     );
-    match bearing.feeds.len() {
-        0 => {}
-        1 => text += " · one groove or hole",
-        count => text += &format!(" · {count} grooves and holes"),
+    for feed in bearing.feeds.iter().take(LISTED_FEEDS) {
+        text += &format!(" · {}", feed_words(feed));
+    }
+    if let Some(more @ 1..) = bearing.feeds.len().checked_sub(LISTED_FEEDS) {
+        text += &format!(" · {more} more grooves and holes");
     }
     text
 }

@@ -2,7 +2,7 @@
 //! journal would be loaded least.
 
 use super::figures::{outline, short};
-use super::format::{MICROMETRE, Units, angle, significant};
+use super::format::{MICROMETRE, Units, angle, plain_number};
 use super::packing::{Blocks, Depth, Keep, packed};
 use super::page::Figure;
 use crate::results::{AccumulatedMap, CycleFields, CycleResults, degrees, degrees_around};
@@ -28,34 +28,53 @@ pub(super) struct Patch {
     pub half_span: f64,
 }
 
-/// Largest pressure that a round patch of `diameter` (m) sees at each angle of the map; cells that
-/// touch the patch count whole.
-fn patch_pressures(map: &AccumulatedMap, diameter: f64, radius: f64) -> Vec<f64> {
+/// Largest pressure that a round patch of `diameter` (m) around `centre` (rad) in the mid-plane
+/// sees; cells that touch the patch count whole.
+fn patch_pressure(map: &AccumulatedMap, centre: f64, diameter: f64, radius: f64) -> f64 {
     let (around, along) = (map.angles.len(), map.axial.len());
     let cell = TAU * radius / around.max(1) as f64;
-    let half_along: Vec<f64> = (0..along)
-        .map(|j| {
-            let to = |other: Option<&f64>| {
-                other.map_or(f64::INFINITY, |z| 0.5 * (z - map.axial[j]).abs())
-            };
-            let before = j.checked_sub(1).and_then(|before| map.axial.get(before));
-            to(before).min(to(map.axial.get(j + 1)))
-        })
-        .collect();
-    (0..around)
-        .map(|centre| {
-            let mut largest = f64::NEG_INFINITY;
-            for i in 0..around {
-                let turned = (map.angles[i] - map.angles[centre] + PI).rem_euclid(TAU) - PI;
-                let dx = ((turned * radius).abs() - 0.5 * cell).max(0.0);
-                for (j, half) in half_along.iter().enumerate() {
-                    let dz = (map.axial[j].abs() - half).max(0.0);
-                    if dx.hypot(dz) <= 0.5 * diameter {
-                        largest = largest.max(map.maximum_pressure[i * along + j]);
-                    }
-                }
+    let mut largest = f64::NEG_INFINITY;
+    for (i, angle) in map.angles.iter().enumerate() {
+        let dx = (apart(*angle, centre) * radius - 0.5 * cell).max(0.0);
+        if dx > 0.5 * diameter {
+            continue;
+        }
+        for (j, z) in map.axial.iter().enumerate() {
+            let dz = (z.abs() - half_cell(&map.axial, j)).max(0.0);
+            if dx.hypot(dz) <= 0.5 * diameter {
+                largest = largest.max(map.maximum_pressure[i * along + j]);
             }
-            largest
+        }
+    }
+    largest
+}
+
+/// Half the width of cell `j` along the axis: half the way to its nearer neighbour.
+fn half_cell(axial: &[f64], j: usize) -> f64 {
+    let to = |other: Option<&f64>| other.map_or(f64::INFINITY, |z| 0.5 * (z - axial[j]).abs());
+    let before = j.checked_sub(1).and_then(|before| axial.get(before));
+    to(before).min(to(axial.get(j + 1)))
+}
+
+/// The smaller angle between two directions, rad.
+fn apart(a: f64, b: f64) -> f64 {
+    ((a - b + PI).rem_euclid(TAU) - PI).abs()
+}
+
+/// What a patch sees around each angle of the map; infinite where a hole of the study is nearer
+/// than a diameter, because it relieves its surroundings.
+fn patch_pressures(map: &AccumulatedMap, diameter: f64, bearing: &Bearing) -> Vec<f64> {
+    let radius = bearing.radius();
+    map.angles
+        .iter()
+        .map(|&angle| {
+            let is_taken =
+                holes(bearing).any(|(hole, _)| apart(angle, hole.angle) * radius < diameter);
+            if is_taken {
+                f64::INFINITY
+            } else {
+                patch_pressure(map, angle, diameter, radius)
+            }
         })
         .collect()
 }
@@ -64,8 +83,12 @@ fn patch_pressures(map: &AccumulatedMap, diameter: f64, radius: f64) -> Vec<f64>
 /// stretch of angles with (within a hundredth of the range) the smallest largest pressure.
 fn least_loaded(map: &AccumulatedMap, pressures: &[f64]) -> Option<Patch> {
     let least = pressures.iter().copied().reduce(f64::min)?;
-    let most = pressures.iter().copied().reduce(f64::max)?;
-    if !(least.is_finite() && most.is_finite()) {
+    let most = pressures
+        .iter()
+        .copied()
+        .filter(|p| p.is_finite())
+        .reduce(f64::max)?;
+    if !least.is_finite() {
         return None;
     }
     let count = pressures.len();
@@ -103,40 +126,37 @@ fn hole_diameter(bearing: &Bearing) -> f64 {
 /// Where an oil hole would be loaded least, with its diameter.
 pub(super) fn quiet_place(bearing: &Bearing, map: &AccumulatedMap) -> Option<(Patch, f64)> {
     let diameter = hole_diameter(bearing);
-    let pressures = patch_pressures(map, diameter, bearing.radius());
+    let pressures = patch_pressures(map, diameter, bearing);
     Some((least_loaded(map, &pressures)?, diameter))
 }
 
 /// The least loaded place in a sentence or two.
 pub(super) fn hole_sentence(bearing: &Bearing, map: &AccumulatedMap, units: &Units) -> String {
-    let diameter = hole_diameter(bearing);
-    let pressures = patch_pressures(map, diameter, bearing.radius());
-    let Some(patch) = least_loaded(map, &pressures) else {
+    let Some((patch, diameter)) = quiet_place(bearing, map) else {
         return String::new();
     };
-    let size = significant(diameter * 1e3);
-    let size = size.trim_end_matches('0').trim_end_matches('.');
     let around = |turned: f64| angle(degrees_around(turned).round());
+    let apart_from = if holes(bearing).next().is_some() {
+        "Apart from the surroundings of its own hole, the journal"
+    } else {
+        "The journal"
+    };
     let mut text = format!(
-        "Least loaded for an oil hole of {size} mm in the mid-plane of the journal: around {} \
-         ({} to {}), where the surface sees at most {} over the cycle.",
+        "{apart_from} is loaded least for an oil hole of {} mm in the mid-plane around {} ({} to \
+         {}): at most {} over the cycle (dashed circle).",
+        plain_number(diameter * 1e3),
         around(patch.angle),
         around(patch.angle - patch.half_span),
         around(patch.angle + patch.half_span),
         units.pressure.show(patch.pressure)
     );
-    for (hole, _) in holes(bearing) {
-        let nearest = (0..pressures.len()).min_by(|&a, &b| {
-            let away = |i: usize| ((map.angles[i] - hole.angle + PI).rem_euclid(TAU) - PI).abs();
-            away(a).total_cmp(&away(b))
-        });
-        if let Some(nearest) = nearest {
-            text += &format!(
-                " The hole of the study at {} sees {}.",
-                angle(degrees(hole.angle)),
-                units.pressure.show(pressures[nearest])
-            );
-        }
+    for (hole, diameter) in holes(bearing) {
+        let seen = patch_pressure(map, hole.angle, diameter, bearing.radius());
+        text += &format!(
+            " Its hole at {} relieves its surroundings; its edge sees {}.",
+            angle(degrees(hole.angle)),
+            units.pressure.show(seen)
+        );
     }
     text
 }
@@ -161,7 +181,7 @@ pub(super) fn figures(cycle: &CycleResults, fields: &CycleFields, units: &Units)
         figure(
             "journal-pressure",
             "Largest pressure · journal",
-            format!("{journal_frame} {hole} The dashed circle marks it."),
+            format!("{journal_frame} {hole}"),
         ),
         figure(
             "shell-thickness",
@@ -269,11 +289,16 @@ mod tests {
         }
     }
 
+    fn patches(map: &AccumulatedMap, diameter: f64) -> Vec<f64> {
+        let patch = |angle: &f64| patch_pressure(map, *angle, diameter, 0.05);
+        map.angles.iter().map(patch).collect()
+    }
+
     #[test]
     fn the_longest_quiet_stretch_wins_across_zero() {
         // Quiet at cells 7, 0, 1 (three) and 4 (one).
         let map = map(|i, _| if matches!(i, 7 | 0 | 1 | 4) { 0.0 } else { 5e6 });
-        let quiet = least_loaded(&map, &patch_pressures(&map, 1e-4, 0.05)).unwrap();
+        let quiet = least_loaded(&map, &patches(&map, 1e-4)).unwrap();
         assert!((quiet.angle - 0.5 * TAU / 8.0).abs() < 1e-12, "{quiet:?}");
         assert!((quiet.half_span - 1.5 * TAU / 8.0).abs() < 1e-12);
         assert_eq!(quiet.pressure, 0.0);
@@ -288,15 +313,15 @@ mod tests {
                 1e6 * (1 + i) as f64
             }
         });
-        let small = patch_pressures(&map, 1e-4, 0.05);
-        let wide = patch_pressures(&map, 0.012, 0.05);
+        let small = patches(&map, 1e-4);
+        let wide = patches(&map, 0.012);
         assert_eq!((small[2], wide[2]), (0.0, 3e6));
     }
 
     #[test]
     fn an_even_load_is_quiet_everywhere() {
         let map = map(|_, _| 2e6);
-        let quiet = least_loaded(&map, &patch_pressures(&map, 1e-4, 0.05)).unwrap();
+        let quiet = least_loaded(&map, &patches(&map, 1e-4)).unwrap();
         assert!((quiet.half_span - PI).abs() < 1e-12);
     }
 }

@@ -36,7 +36,32 @@
     modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.faint, activecolor: theme.first },
   }, extra);
 
-  report.bearingAxis = () => report.axis("Bearing angle [°]", { range: [0, 360], tick0: 0, dtick: 45 });
+  // Colour maps that are even to the eye, beside those of the library (Viridis, Cividis).
+  const even = (...colours) => colours.map((colour, i) => [i / (colours.length - 1), colour]);
+  report.scales = {
+    plasma: even("#0d0887", "#46039f", "#7201a8", "#9c179e", "#bd3786", "#d8576b", "#ed7953", "#fb9f3a", "#fdca26", "#f0f921"),
+    inferno: even("#000004", "#1b0c41", "#4a0c6b", "#781c6d", "#a52c60", "#cf4446", "#ed6925", "#fb9b06", "#f7d13d", "#fcffa4"),
+  };
+
+  // Where the unrolled surface is cut open: at 0°, or at 180° if the pressure peaks within 60° of 0°, so that
+  // a peak is not cut. Angles past the cut are drawn a turn further on and named as they are.
+  report.seamFor = (peak) => (peak > 60 && peak < 300 ? 0 : 180);
+  report.unrolled = (angle, seam) => (angle < seam ? angle + 360 : angle);
+  report.angleTicks = (seam, step) => {
+    const places = Array.from({ length: 360 / step + 1 }, (_, i) => seam + i * step);
+    return { range: [seam, seam + 360], tickvals: places, ticktext: places.map((place) => String(place === 360 && seam === 0 ? 360 : place % 360)) };
+  };
+  // Columns of a row in the order in which they are drawn.
+  report.cut = (angles, seam) => {
+    const first = Math.max(angles.findIndex((angle) => angle >= seam), 0);
+    const turn = (row) => [...row.slice(first), ...row.slice(0, first)];
+    return { angles: turn(angles).map((angle) => report.unrolled(angle, seam)), turn };
+  };
+
+  const { film, position } = report.data;
+  const peak = film ? film.frames[film.jumps.length > 0 ? film.jumps[0].frame : 0].highest.angle : position ? 0 : 180;
+  report.seam = report.seamFor(peak ?? 180);
+  report.bearingAxis = () => report.axis("Bearing angle [°]", report.angleTicks(report.seam, 45));
 
   // A packed field as numbers: whole steps from the lowest value; the highest code is a gap.
   report.unpacked = (packed) => {

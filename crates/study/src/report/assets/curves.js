@@ -67,17 +67,21 @@
 
   // Dots of several series over each other keep their shapes: filled, then open.
   function dots(series, order) {
-    return { x: series.x, y: series.y, name: series.name, mode: "markers", hovertemplate: "%{y:.4~g}",
-      marker: { color: theme[colours[order % 5]], size: order === 0 ? 5 : 4, opacity: 0.8,
-        symbol: order === 0 ? "circle" : "diamond-open" } };
+    return { x: series.x, y: series.y, name: series.name, mode: "markers", customdata: series.names ?? series.y,
+      hovertemplate: "%{customdata:.4~g}", cliponaxis: false,
+      marker: { color: theme[colours[order % 5]], size: order === 0 ? 4.5 : 2.5 } };
   }
 
   function chart(name) {
-    const { x_title: xTitle, y_title: yTitle, series } = charts[name];
-    const traces = series.map((one, order) => (one.dots ? dots(one, order) : line(one.x, one.y, one.name, order)));
+    const { x_title: xTitle, y_title: yTitle, y_range: range, series } = charts[name];
+    const isAngle = yTitle.startsWith("Bearing angle");
+    const places = (one) => (isAngle ? Object.assign({}, one, { y: one.y.map((angle) => (angle === null ? null : report.unrolled(angle, report.seam))),
+      names: one.y }) : one);
+    const traces = series.map(places).map((one, order) => (one.dots ? dots(one, order) : line(one.x, one.y, one.name, order)));
     const isCrank = cycle && xTitle.startsWith("Crank angle");
     const figure = curves(traces, yTitle, isCrank ? crankAxis() : axis(xTitle));
-    if (yTitle.startsWith("Bearing angle")) { Object.assign(figure.layout.yaxis, { range: [0, 360], tick0: 0, dtick: 90 }); }
+    if (range) { figure.layout.yaxis.range = range; }
+    if (isAngle) { Object.assign(figure.layout.yaxis, report.angleTicks(report.seam, 90)); }
     return figure;
   }
 
@@ -101,6 +105,8 @@
     });
   }
   if (middle) {
+    const { angles, turn } = report.cut(middle.angle, report.seam);
+    Object.assign(middle, { angle: angles, pressure: turn(middle.pressure), fraction: turn(middle.fraction), thickness: turn(middle.thickness) });
     Object.assign(drawings, {
       "middle-pressure": () => curves([line(middle.angle, middle.pressure, "film pressure", 0)],
         withUnit("Film pressure", units.pressure), bearingAxis()),

@@ -9,7 +9,7 @@
   const fields = {
     pressure: { values: unpacked(film.pressure), scale: "Viridis", name: "film pressure", unit: units.pressure },
     fraction: { values: unpacked(film.fraction), scale: "Cividis", name: "film fraction", unit: "" },
-    thickness: { values: unpacked(film.thickness), scale: "Plasma", name: "film thickness", unit: "µm", reversed: true },
+    thickness: { values: unpacked(film.thickness), scale: report.scales.plasma, name: "film thickness", unit: "µm", reversed: true },
   };
   for (const field of Object.values(fields)) {
     field.low = report.smallest(field.values);
@@ -18,6 +18,7 @@
   const choice = { shape: "bush", colour: "pressure", scale: "cycle" };
   let shown = film.jumps.length > 0 ? film.jumps[0].frame : 0;
 
+  report.frameOfPeak = film.frames[shown];
   const frame = () => film.frames[shown];
   const rowsOf = (name) => rows(fields[name].values, around, along, shown);
 
@@ -36,7 +37,8 @@
     const field = fields[name];
     const [zmin, zmax] = range(name);
     return report.map({ angle: film.angle, axial: film.axial, half: film.half_width, values: rowsOf(name), scale: field.scale,
-      range: { zmin, zmax }, name: field.name, unit: field.unit, marks, shapes: report.outlines(film.feeds, turned) });
+      range: { zmin, zmax }, name: field.name, unit: field.unit, marks, seam: report.seam,
+      shapes: report.outlines(film.feeds, turned, report.seam) });
   }
 
   drawings["film-pressure"] = () => map("pressure", [...report.placeMark(frame().thinnest, "x-thin", 8),
@@ -46,7 +48,7 @@
   // ---- the body of the film ------------------------------------------------------------------
 
   // Height of the highest pressure above the rings, in bearing radii.
-  const exaggeration = 0.85;
+  const exaggeration = 0.75;
 
   const closed = (row) => [...row, row[0]];
   const turns = closed(film.angle).map((angle, i) => (angle + (i === around ? 360 : 0)) * Math.PI / 180);
@@ -58,7 +60,7 @@
       colorscale: field.scale, reversescale: field.reversed ?? false, cmin, cmax, hoverinfo: "skip", showlegend: false,
       lighting: { ambient: 0.72, diffuse: 0.55, specular: 0.08, roughness: 0.9, fresnel: 0.05 },
       lightposition: { x: 2000, y: 6000, z: 9000 },
-      colorbar: Object.assign(report.colourBar(withUnit(field.name.replace("film ", ""), field.unit || "–")), { len: 0.6, thickness: 12, x: 1.0, xanchor: "right" }) };
+      colorbar: Object.assign(report.colourBar(withUnit(field.name.replace("film ", ""), field.unit || "–")), { len: 0.55, thickness: 12, x: 0.0, xanchor: "left", y: 0.5 }) };
   }
 
   const wire = (x, y, z, color, width) => ({ type: "scatter3d", mode: "lines", x, y, z, hoverinfo: "skip", showlegend: false,
@@ -92,24 +94,53 @@
     const rings = [-half, half].map((end) => wire(ring.map(Math.cos), ring.map(Math.sin), ring.map(() => end), theme.faint, 3));
     const named = [0, 90, 180, 270];
     const place = (reach, of) => named.map((angle) => reach * of(angle * Math.PI / 180));
-    const spokes = named.flatMap((angle) => [0.86, 1, null].map((r) => [r, angle * Math.PI / 180]));
-    const ticks = wire(spokes.map(([r, a]) => (r === null ? null : r * Math.cos(a))), spokes.map(([r, a]) => (r === null ? null : r * Math.sin(a))),
-      spokes.map(([r]) => (r === null ? null : half)), theme.soft, 3);
-    const labels = words(place(0.72, Math.cos), place(0.72, Math.sin), named.map(() => half), named.map((angle) => `${angle}°`), theme.soft);
-    const ends = words([0, 0], [-1.16, -1.16], [half, -half], [`z = +${film.half_width} mm`, `z = −${film.half_width} mm`], theme.soft);
-    const reach = 1.06 + exaggeration;
-    const plain = (extent) => ({ visible: false, range: [-extent, extent] });
-    return { traces: [surface(x, y, z, choice.colour), ...rings, ticks, labels, ends, ...loadArrow(half)],
-      scene: { xaxis: plain(reach), yaxis: plain(reach), zaxis: plain(1.25 * half), aspectmode: "manual",
-        aspectratio: { x: 1, y: 1, z: 1.25 * half / reach },
-        camera: { up: { x: 0, y: 1, z: 0 }, eye: { x: 0.62, y: 0.42, z: 1.15 }, center: { x: 0, y: -0.02, z: 0 } } } };
+    const spokes = named.flatMap((angle) => [0.9, 1, null].map((r) => [r, angle * Math.PI / 180]));
+    const along3d = (of) => spokes.map(([r, a]) => (r === null ? null : r * of(a)));
+    const ticks = wire(along3d(Math.cos), along3d(Math.sin), spokes.map(([r]) => (r === null ? null : half)), theme.soft, 3);
+    const labels = words(place(0.77, Math.cos), place(0.77, Math.sin), named.map(() => half), named.map((angle) => `${angle}°`), theme.soft);
+    const { x: xs, y: ys } = reach(top);
+    const plain = (range) => ({ visible: false, range });
+    const size = 1.12 / Math.max(xs[1] - xs[0], ys[1] - ys[0], 3.2 * half);
+    return { traces: [surface(x, y, z, choice.colour), ...rings, ticks, labels, ...axialScale(half), ...loadArrow(half)],
+      scene: { domain: { x: [0.08, 1], y: [0, 1] }, xaxis: plain(xs), yaxis: plain(ys), zaxis: plain([-1.6 * half, 1.6 * half]), aspectmode: "manual",
+        aspectratio: { x: size * (xs[1] - xs[0]), y: size * (ys[1] - ys[0]), z: size * 3.2 * half },
+        camera: { up: { x: 0, y: 1, z: 0 }, eye: { x: 0.66, y: 0.4, z: 1.35 }, center: { x: 0, y: 0, z: 0 } } } };
+  }
+
+  // The room that the body takes: over the whole cycle where its scale is that of the cycle, so that
+  // the picture stands still while frames pass.
+  function reach(top) {
+    const box = { x: [-1.18, 1.18], y: [-1.18, 1.18] };
+    const highest = film.angle.map(() => 0);
+    fields.pressure.values.forEach((value, cell) => {
+      const column = cell % around;
+      if (value > highest[column]) { highest[column] = value; }
+    });
+    highest.forEach((value, column) => {
+      const tall = choice.scale === "cycle" ? Math.max(0, value) / top : 1;
+      const r = 1.03 + exaggeration * tall;
+      for (const [key, of] of [["x", Math.cos], ["y", Math.sin]]) {
+        box[key][0] = Math.min(box[key][0], r * of(turns[column]));
+        box[key][1] = Math.max(box[key][1], r * of(turns[column]));
+      }
+    });
+    return box;
+  }
+
+  // A scale along the axis, on the side of the bearing that is away from the peak.
+  function axialScale(half) {
+    const side = Math.cos((report.frameOfPeak.highest.angle - 225) * Math.PI / 180) > 0 ? 315 : 225;
+    const at = (r) => [r * Math.cos(side * Math.PI / 180), r * Math.sin(side * Math.PI / 180)];
+    const [x, y] = at(1.17);
+    return [wire([x, x], [y, y], [-half, half], theme.soft, 3),
+      words([x, x], [y, y], [1.22 * half, -1.22 * half], [`z = +${film.half_width} mm`, `−${film.half_width} mm`], theme.soft)];
   }
 
   function plate() {
     const pressure = rowsOf("pressure");
     const line3d = (title, extra) => Object.assign(axis(title, { gridcolor: theme.line, backgroundcolor: "rgba(0,0,0,0)", showbackground: false,
       color: theme.soft, titlefont: undefined }), extra);
-    const scene = { xaxis: line3d("Bearing angle [°]", { range: [0, 360], tick0: 0, dtick: 90 }),
+    const scene = { domain: { x: [0.08, 1], y: [0, 1] }, xaxis: line3d("Bearing angle [°]", report.angleTicks(report.seam, 90)),
       yaxis: line3d("Axial position [mm]", { range: [-film.half_width, film.half_width] }),
       zaxis: line3d(withUnit("Film pressure", units.pressure), { range: range("pressure") }),
       aspectmode: "manual", aspectratio: { x: 1.5, y: 0.8, z: 0.75 },
@@ -118,7 +149,10 @@
       for (const unknown of ["automargin", "titlefont", "standoff", "ticklen"]) { delete scene[name][unknown]; }
       scene[name].title = { text: scene[name].title.text };
     }
-    return { traces: [surface(film.angle, film.axial, pressure, choice.colour)], scene };
+    const { angles, turn } = report.cut(film.angle, report.seam);
+    const sheet = surface(angles, film.axial, pressure.map(turn), choice.colour);
+    sheet.surfacecolor = sheet.surfacecolor.map(turn);
+    return { traces: [sheet], scene };
   }
 
   const hasSolids = (() => {
@@ -132,6 +166,9 @@
       return null;
     }
     const { traces, scene } = choice.shape === "bush" ? bush() : plate();
+    // The view opens upwards by an angle of its own: a narrow picture needs a step back.
+    const back = Math.max(1, 1.08 * element.clientHeight / Math.max(element.clientWidth, 1));
+    scene.camera.eye = Object.fromEntries(Object.entries(scene.camera.eye).map(([key, value]) => [key, back * value]));
     // The camera stays where the reader put it while frames pass, and starts anew with another shape.
     return { traces, layout: layout({}, {}, { scene: Object.assign(scene, { uirevision: choice.shape, bgcolor: "rgba(0,0,0,0)", dragmode: "orbit" }),
       margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: choice.shape }) };
@@ -145,7 +182,7 @@
 
   function readOut() {
     const now = frame();
-    const values = { crank: [now.crank_text, "of the period"], load: [now.load_text, now.load_place], thickness: [now.thickness_text, now.thickness_place],
+    const values = { crank: [now.crank_text, `instant ${shown + 1} of ${film.frames.length}`], load: [now.load_text, now.load_place], thickness: [now.thickness_text, now.thickness_place],
       pressure: [now.pressure_text, now.pressure_place], eccentricity: [now.eccentricity_text, now.eccentricity_place] };
     for (const element of document.querySelectorAll("[data-read]")) {
       const [value, place] = values[element.dataset.read];
