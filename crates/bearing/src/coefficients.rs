@@ -2,11 +2,34 @@
 //!
 //! Equation: `stiffness = -d(force)/d(position)`, `damping = -d(force)/d(velocity)`, from the film's
 //! exact tangents; with tilt, moments by tilts too. Shell frame unless turned.
+//!
+//! What the film content does while the journal is displaced decides what these derivatives mean:
+//! - **Films without content** (`gumbel`, `reynolds`, closed forms) answer to position and velocity
+//!   alone, at rest as on an orbit.
+//! - **At an equilibrium of a mass-conserving film** ([`Coefficients::from_tangent`]) they are those of
+//!   slow motion: the content has time to become the steady one of the displaced journal, and the
+//!   squeeze acts on the film fraction of the equilibrium.
+//! - **At an instant of an orbit of a mass-conserving film** ([`instant_coefficients`]) there is no such
+//!   time. The full zone stays full, as an incompressible film must, the rest keeps the oil it has, and
+//!   no cell changes sides. With the content `m = theta h` of the ruptured zone frozen, the pressure
+//!   obeys `div(h^3/(12 eta) grad p) = U dh/dx + dh/dt` in the full zone `Z` and takes in `U m` where oil
+//!   meets it, so
+//! ```text
+//! K = -dF/dq at fixed Z, m and velocity        conduction and wedge of Z at the displaced gap
+//! C = -dF/dv at fixed Z, m and position        squeeze of Z alone
+//! ```
+//!   They are found from implicit steps of length d that start from this content: with the state in the
+//!   middle of the step, the tangents are `by_rate = S(d)/2` and `by_position = A + S(d)/d`, where
+//!   `S(d) = S_Z + d B + O(d^2)`: the squeeze of Z, and what the ruptured cells, whose fraction falls
+//!   as their gap opens, take from the inflow. Two short steps separate `C = -S_Z` from `K = -(A + B)`.
+//!
 //! Reference: J. W. Lund, K. K. Thomsen, Topics in Fluid Film Bearing and Rotor Bearing System
 //! Design and Optimization, ASME 1978, p. 1.
 
 use serde::{Deserialize, Serialize};
-use sommerfeld_film::Tangent;
+use sommerfeld_film::{
+    Conditions, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step, Tangent,
+};
 
 /// Stiffness and damping of the film. Rows: force x, y (N), moment x, y (N m); columns: position
 /// x, y (m), tilt x, y (rad), or their rates.
@@ -50,6 +73,70 @@ impl Coefficients {
             damping: turn(&self.damping, angle),
         }
     }
+}
+
+/// Length of the steps that show a film with memory at an instant, as an angle of mean rotation (rad):
+/// far below a cell, so that nothing is transported, and far above round-off.
+const INSTANT: f64 = 1e-6;
+
+/// Stiffness and damping at an instant of an orbit: at `state` (with its rates), from the film content
+/// `instant` of that instant ([`FilmForce::instant`]). The film is left with another history.
+///
+/// # Errors
+/// What the film refuses; that it does not settle is the [`Outcome`], and then the numbers are those of
+/// its last iterate.
+pub fn instant_coefficients(
+    film: &mut dyn FilmForce,
+    state: &JournalState,
+    instant: &FilmHistory,
+    conditions: &Conditions<'_>,
+) -> Result<(Coefficients, Outcome), FilmError> {
+    if !film.capabilities().has_history {
+        let answer = film.react(state, Step::Steady, conditions)?;
+        return Ok((Coefficients::from_tangent(&answer.tangent), answer.outcome));
+    }
+    let speed = state.mean_speed().abs().max(1.0);
+    let duration = INSTANT / speed;
+    film.restore(instant);
+    let mut outcome = Outcome::Converged;
+    let mut tangent_after = |duration: f64| -> Result<Tangent, FilmError> {
+        let half = 0.5 * duration;
+        let moved = |at: [f64; 2], rate: [f64; 2]| [0, 1].map(|i| at[i] + half * rate[i]);
+        let middle = JournalState {
+            position: moved(state.position, state.velocity),
+            tilt: moved(state.tilt, state.tilt_rate),
+            ..*state
+        };
+        let step = Step::Implicit {
+            duration,
+            after: half,
+        };
+        let answer = film.react(&middle, step, conditions)?;
+        film.reject_step();
+        if answer.outcome != Outcome::Converged {
+            outcome = answer.outcome;
+        }
+        Ok(answer.tangent)
+    };
+    let (short, long) = (tangent_after(duration)?, tangent_after(2.0 * duration)?);
+    // by_rate holds half of S(d).
+    let entry = |row: usize, column: usize| {
+        let of_short = 2.0 * short.by_rate[row][column];
+        let of_long = 2.0 * long.by_rate[row][column];
+        let squeeze = 2.0 * of_short - of_long;
+        [
+            -(short.by_position[row][column] - squeeze / duration),
+            -squeeze,
+        ]
+    };
+    let matrix = |which: usize| {
+        std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)[which]))
+    };
+    let coefficients = Coefficients {
+        stiffness: matrix(0),
+        damping: matrix(1),
+    };
+    Ok((coefficients, outcome))
 }
 
 fn leading(matrix: &[[f64; 4]; 4]) -> [[f64; 2]; 2] {
