@@ -10,18 +10,18 @@
 //!   slow motion: the content has time to become the steady one of the displaced journal, and the
 //!   squeeze acts on the film fraction of the equilibrium.
 //! - **At an instant of an orbit of a mass-conserving film** ([`instant_coefficients`]) there is no such
-//!   time. The full zone stays full, as an incompressible film must, the rest keeps the oil it has, and
-//!   no cell changes sides. With the content `m = theta h` of the ruptured zone frozen, the pressure
-//!   obeys `div(h^3/(12 eta) grad p) = U dh/dx + dh/dt` in the full zone `Z` and takes in `U m` where oil
-//!   meets it, so
+//!   time: the film content is that of the instant, and no cell changes sides. The full zone `Z` stays
+//!   full, as an incompressible film must; the ruptured zone keeps its film fraction theta. The
+//!   pressure of Z obeys `div(h^3/(12 eta) grad p) = U dh/dx + dh/dt` and takes in `U theta h` where it
+//!   meets ruptured film, so
 //! ```text
-//! K = -dF/dq at fixed Z, m and velocity        conduction and wedge of Z at the displaced gap
-//! C = -dF/dv at fixed Z, m and position        squeeze of Z alone
+//! K = -dF/dq at fixed Z, theta and velocity        conduction, wedge and inflow at the displaced gap
+//! C = -dF/dv at fixed Z, theta and position        squeeze of Z alone
 //! ```
-//!   They are found from implicit steps of length d that start from this content: with the state in the
-//!   middle of the step, the tangents are `by_rate = S(d)/2` and `by_position = A + S(d)/d`, where
-//!   `S(d) = S_Z + d B + O(d^2)`: the squeeze of Z, and what the ruptured cells, whose fraction falls
-//!   as their gap opens, take from the inflow. Two short steps separate `C = -S_Z` from `K = -(A + B)`.
+//!   Both come from one implicit step of a length d too short for transport, which starts from this
+//!   content and at this state: its tangents are `by_rate = S` and `by_position = A + S/d`, where S is
+//!   the squeeze and A everything else, so that `C = -S` and `K = -(by_position - by_rate/d)`. The
+//!   part S/d of a displacement without time is what keeps Z full; it is no stiffness.
 //!
 //! Reference: J. W. Lund, K. K. Thomsen, Topics in Fluid Film Bearing and Rotor Bearing System
 //! Design and Optimization, ASME 1978, p. 1.
@@ -75,7 +75,7 @@ impl Coefficients {
     }
 }
 
-/// Length of the steps that show a film with memory at an instant, as an angle of mean rotation (rad):
+/// Length of the step that shows a film with memory at an instant, as an angle of mean rotation (rad):
 /// far below a cell, so that nothing is transported, and far above round-off.
 const INSTANT: f64 = 1e-6;
 
@@ -95,48 +95,21 @@ pub fn instant_coefficients(
         let answer = film.react(state, Step::Steady, conditions)?;
         return Ok((Coefficients::from_tangent(&answer.tangent), answer.outcome));
     }
-    let speed = state.mean_speed().abs().max(1.0);
-    let duration = INSTANT / speed;
+    let duration = INSTANT / state.mean_speed().abs().max(1.0);
+    let step = Step::Implicit {
+        duration,
+        after: duration,
+    };
     film.restore(instant);
-    let mut outcome = Outcome::Converged;
-    let mut tangent_after = |duration: f64| -> Result<Tangent, FilmError> {
-        let half = 0.5 * duration;
-        let moved = |at: [f64; 2], rate: [f64; 2]| [0, 1].map(|i| at[i] + half * rate[i]);
-        let middle = JournalState {
-            position: moved(state.position, state.velocity),
-            tilt: moved(state.tilt, state.tilt_rate),
-            ..*state
-        };
-        let step = Step::Implicit {
-            duration,
-            after: half,
-        };
-        let answer = film.react(&middle, step, conditions)?;
-        film.reject_step();
-        if answer.outcome != Outcome::Converged {
-            outcome = answer.outcome;
+    let answer = film.react(state, step, conditions)?;
+    film.reject_step();
+    let mut tangent = answer.tangent;
+    for (row, squeeze) in tangent.by_position.iter_mut().zip(tangent.by_rate) {
+        for (value, squeeze) in row.iter_mut().zip(squeeze) {
+            *value -= squeeze / duration;
         }
-        Ok(answer.tangent)
-    };
-    let (short, long) = (tangent_after(duration)?, tangent_after(2.0 * duration)?);
-    // by_rate holds half of S(d).
-    let entry = |row: usize, column: usize| {
-        let of_short = 2.0 * short.by_rate[row][column];
-        let of_long = 2.0 * long.by_rate[row][column];
-        let squeeze = 2.0 * of_short - of_long;
-        [
-            -(short.by_position[row][column] - squeeze / duration),
-            -squeeze,
-        ]
-    };
-    let matrix = |which: usize| {
-        std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column)[which]))
-    };
-    let coefficients = Coefficients {
-        stiffness: matrix(0),
-        damping: matrix(1),
-    };
-    Ok((coefficients, outcome))
+    }
+    Ok((Coefficients::from_tangent(&tangent), answer.outcome))
 }
 
 fn leading(matrix: &[[f64; 4]; 4]) -> [[f64; 2]; 2] {

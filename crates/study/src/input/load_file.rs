@@ -1,14 +1,14 @@
 //! The load table of a load-cycle study: CSV with the unit of each column in its header.
 //!
 //! `crank_angle[deg],load_x[N],load_y[N]` and, in any order, `journal_speed`, `shell_speed`,
-//! `moment_x`, `moment_y`; lines that start with `#` are comments. Loads and moments act ON the
-//! journal. Angles ascend, may start anywhere and span at most one period; the last row may repeat
+//! and `moment_x`, `moment_y`, which free the tilt, or `tilt_x`, `tilt_y`, which prescribe it; lines
+//! that start with `#` are comments. Loads and moments act ON the journal. Angles ascend, may start anywhere and span at most one period; the last row may repeat
 //! the first.
 
 use super::error::{InputError, Place};
 use super::schema::nearest_word;
 use super::units::Dimension;
-use sommerfeld_bearing::{LoadCycle, LoadPoint};
+use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 use std::ops::Range;
 
 /// More messages than this about one file help nobody.
@@ -34,14 +34,12 @@ pub struct CycleSettings {
 pub struct LoadTable {
     /// The load cycle.
     pub cycle: LoadCycle,
-    /// The table gives moments.
-    pub has_moments: bool,
     /// What the user should know.
     pub warnings: Vec<InputError>,
 }
 
 /// Columns a load table may have, in the order of [`Row`].
-const COLUMNS: [(&str, Dimension); 7] = [
+const COLUMNS: [(&str, Dimension); 9] = [
     ("crank_angle", Dimension::Angle),
     ("load_x", Dimension::Force),
     ("load_y", Dimension::Force),
@@ -49,12 +47,15 @@ const COLUMNS: [(&str, Dimension); 7] = [
     ("shell_speed", Dimension::AngularSpeed),
     ("moment_x", Dimension::Moment),
     ("moment_y", Dimension::Moment),
+    ("tilt_x", Dimension::Angle),
+    ("tilt_y", Dimension::Angle),
 ];
 /// The first columns of [`COLUMNS`] must be there.
 const REQUIRED: usize = 3;
 const MOMENTS: [usize; 2] = [5, 6];
+const TILTS: [usize; 2] = [7, 8];
 const HEADER: &str = "crank_angle[deg],load_x[N],load_y[N], then as needed journal_speed[rad/s],\
-                      shell_speed[rad/s],moment_x[N.m],moment_y[N.m]";
+                      shell_speed[rad/s], and moment_x[N.m],moment_y[N.m] or tilt_x[mrad],tilt_y[mrad]";
 
 /// One row in SI, by column of [`COLUMNS`], with its place.
 struct Row {
@@ -112,14 +113,15 @@ pub fn read_load_table(
         ]);
     };
     let columns = read_header(file, header)?;
+    if let Some(error) = moments_and_tilts(file, header, &columns) {
+        return Err(vec![error]);
+    }
     let rows = read_rows(file, lines, &columns)?;
     let (rows, closing_error) = close(file, rows, settings)?;
     let mut warnings: Vec<InputError> = closing_error.into_iter().collect();
     warnings.extend(warn_of_missing_angles(file, &rows, settings));
-    let has_moments = columns.iter().any(|column| MOMENTS.contains(&column.index));
     Ok(LoadTable {
         cycle: load_cycle(&rows, &columns, settings),
-        has_moments,
         warnings,
     })
 }
@@ -194,14 +196,37 @@ fn read_column(cell: &str) -> Result<Column<'_>, (String, String)> {
     }
 }
 
+/// A tilt cannot be prescribed and free.
+fn moments_and_tilts(file: &str, header: Line<'_>, columns: &[Column<'_>]) -> Option<InputError> {
+    let has = |pair: [usize; 2]| columns.iter().any(|column| pair.contains(&column.index));
+    (has(MOMENTS) && has(TILTS)).then(|| {
+        let at = columns
+            .iter()
+            .position(|column| TILTS.contains(&column.index));
+        let span = at
+            .and_then(|at| header.cells().nth(at))
+            .map_or(0..0, |(_, span)| span);
+        header
+            .error(file, span, "the load table gives both moments and tilts")
+            .allowing(
+                "moment_x, moment_y, which free the tilt, or tilt_x, tilt_y, which prescribe it",
+            )
+            .hinting(
+                "take one pair of columns out; the moment that holds a prescribed tilt is a result",
+            )
+    })
+}
+
 fn missing_columns(file: &str, header: Line<'_>, columns: &[Column<'_>]) -> Option<InputError> {
     let has = |index: usize| columns.iter().any(|column| column.index == index);
     let mut missing: Vec<&str> = (0..REQUIRED)
         .filter(|&i| !has(i))
         .map(|i| COLUMNS[i].0)
         .collect();
-    if MOMENTS.iter().any(|&index| has(index)) {
-        missing.extend(MOMENTS.iter().filter(|&&i| !has(i)).map(|&i| COLUMNS[i].0));
+    for pair in [MOMENTS, TILTS] {
+        if pair.iter().any(|&index| has(index)) {
+            missing.extend(pair.iter().filter(|&&i| !has(i)).map(|&i| COLUMNS[i].0));
+        }
     }
     if missing.is_empty() {
         return None;
@@ -431,6 +456,8 @@ fn load_cycle(rows: &[Row], columns: &[Column<'_>], settings: &CycleSettings) ->
                 shell,
                 moment_x,
                 moment_y,
+                _,
+                _,
             ] = row.values;
             LoadPoint {
                 crank_angle,
@@ -450,6 +477,17 @@ fn load_cycle(rows: &[Row], columns: &[Column<'_>], settings: &CycleSettings) ->
         period: settings.period,
         engine_speed: settings.engine_speed,
         journal_mass: settings.journal_mass,
+        tilt: if has(TILTS[0]) {
+            CycleTilt::Prescribed(
+                rows.iter()
+                    .map(|row| TILTS.map(|index| row.values[index]))
+                    .collect(),
+            )
+        } else if has(MOMENTS[0]) {
+            CycleTilt::Free
+        } else {
+            CycleTilt::Aligned
+        },
     }
 }
 
@@ -479,7 +517,25 @@ mod tests {
         assert_eq!(table.cycle.points[1].load, [4.0, 2000.0]);
         assert_eq!(table.cycle.points[0].journal_speed, 200.0);
         assert!((table.cycle.points[0].shell_speed - std::f64::consts::PI).abs() < 1e-12);
-        assert!(!table.has_moments);
+        assert_eq!(table.cycle.tilt, CycleTilt::Aligned);
+    }
+
+    #[test]
+    fn moments_free_the_tilt_and_tilts_prescribe_it() {
+        let head = "crank_angle[deg],load_x[N],load_y[N]";
+        let moments = read(&format!(
+            "{head},moment_x[N.m],moment_y[N.m]\n0,1,0,0,0\n360,1,0,0,0\n"
+        ));
+        assert_eq!(moments.unwrap().cycle.tilt, CycleTilt::Free);
+        let tilts = read(&format!(
+            "{head},tilt_y[urad],tilt_x[mrad]\n0,1,0,5,0.1\n360,1,0,-5,0.2\n"
+        ));
+        let CycleTilt::Prescribed(rows) = tilts.unwrap().cycle.tilt else {
+            unreachable!("tilts are given")
+        };
+        for (row, expected) in rows.iter().zip([[1e-4, 5e-6], [2e-4, -5e-6]]) {
+            assert!((row[0] - expected[0]).hypot(row[1] - expected[1]) < 1e-18);
+        }
     }
 
     #[test]

@@ -22,6 +22,6 @@ pub use files::{load_study, study_from_text};
 pub use json_schema::json_schema;
 pub use keys::KEYS;
 pub use study::{
-    Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, SteadyLoad,
-    Study, StudyLimit, Subject, TiltCondition,
+    Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, Rotor,
+    SteadyLoad, Study, StudyLimit, Subject, TiltCondition,
 };
