@@ -3,10 +3,12 @@
 mod csv;
 mod html;
 mod json;
+mod stability;
 
 pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
+pub use stability::StabilityTable;
 
 use crate::results::Results;
 use std::fs;
@@ -31,7 +33,13 @@ pub trait ResultWriter: Sync {
 
 /// Every format, in the order in which they are written: the summary last, so that a directory
 /// that holds it holds everything.
-pub const WRITERS: &[&dyn ResultWriter] = &[&CycleTable, &FieldTable, &HtmlReport, &SummaryJson];
+pub const WRITERS: &[&dyn ResultWriter] = &[
+    &CycleTable,
+    &FieldTable,
+    &StabilityTable,
+    &HtmlReport,
+    &SummaryJson,
+];
 
 /// Results that could not be written.
 #[derive(Debug, Error)]

@@ -3,9 +3,11 @@
 use super::{ProgressCallback, conditions, film_of, note_outcome};
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, CycleField, CycleResults, FieldSnapshot, Header};
-use sommerfeld_bearing::{CyclePoint, JournalOrbit, OrbitSettings, Progress, journal_orbit};
-use sommerfeld_film::{FeedFlow, FilmError, FilmForce, JournalState, Outcome, Step};
+use crate::results::{Body, CycleField, CycleResults, FieldSnapshot, Header, InstantCoefficients};
+use sommerfeld_bearing::{
+    CyclePoint, JournalOrbit, OrbitSettings, Progress, instant_coefficients, journal_orbit,
+};
+use sommerfeld_film::{FeedFlow, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step};
 use std::ops::ControlFlow;
 
 pub(super) fn solve_cycle(
@@ -28,6 +30,7 @@ pub(super) fn solve_cycle(
         },
         feed_flows: Vec::new(),
         worst_film: None,
+        coefficients: Vec::new(),
     };
     // Without supply the film would empty over the cycles and the journal sink into the shell.
     let centred = JournalState {
@@ -48,7 +51,7 @@ pub(super) fn solve_cycle(
         closure_tolerance: duty.closure_tolerance,
         ..OrbitSettings::default()
     };
-    let mut watch = CycleWatch::new(duty.maximum_cycles);
+    let mut watch = CycleWatch::new(duty);
     let mut film = film_of(case, settings)?;
     let orbit = journal_orbit(
         film.as_mut(),
@@ -65,6 +68,7 @@ pub(super) fn solve_cycle(
             "interrupted: the orbit is that of an unfinished run".to_owned(),
         );
     }
+    let coefficients = watch.coefficients(case, film.as_mut())?;
     let mut feed_flows = watch.feed_flows;
     // The observer also saw the start of a cycle, which is not a point of its own.
     feed_flows.drain(..feed_flows.len().saturating_sub(orbit.points.len()));
@@ -73,11 +77,21 @@ pub(super) fn solve_cycle(
         orbit,
         feed_flows,
         worst_film: watch.worst,
+        coefficients,
     })))
+}
+
+/// A crank angle at which coefficients are asked for, and what was seen nearest to it.
+struct Request {
+    crank_angle: f64,
+    seen: Option<(CyclePoint, FilmHistory)>,
 }
 
 /// Copies from the running orbit what its points do not hold, and passes its progress on.
 struct CycleWatch {
+    requests: Vec<Request>,
+    period: f64,
+    crank_step: f64,
     expected_cycles: usize,
     cycle: usize,
     least_film: f64,
@@ -87,11 +101,21 @@ struct CycleWatch {
 }
 
 impl CycleWatch {
-    fn new(cycle_limit: usize) -> Self {
+    fn new(duty: &CycleDuty) -> Self {
         /// Cycles that most orbits take to close: for the estimate of the time left.
         const USUAL_CYCLES: usize = 4;
         Self {
-            expected_cycles: cycle_limit.min(USUAL_CYCLES),
+            requests: duty
+                .coefficients_at
+                .iter()
+                .map(|&crank_angle| Request {
+                    crank_angle,
+                    seen: None,
+                })
+                .collect(),
+            period: duty.cycle.period,
+            crank_step: duty.crank_step,
+            expected_cycles: duty.maximum_cycles.min(USUAL_CYCLES),
             cycle: 0,
             least_film: f64::INFINITY,
             worst: None,
@@ -119,6 +143,13 @@ impl CycleWatch {
                 field: FieldSnapshot::from(field),
             });
         }
+        for request in &mut self.requests {
+            let apart = (point.crank_angle - request.crank_angle).rem_euclid(self.period);
+            let distance = apart.min(self.period - apart);
+            if distance <= 0.500_001 * self.crank_step {
+                request.seen = Some((*point, film.instant()));
+            }
+        }
         self.feed_flows.push(film.feed_flows().to_vec());
         let label = format!("cycle {}", stage.cycle);
         let done = (stage.cycle.saturating_sub(1) as f64 + stage.fraction)
@@ -133,5 +164,34 @@ impl CycleWatch {
         let answer = progress(event);
         self.stopped |= answer.is_break();
         answer
+    }
+
+    /// Stiffness and damping at what was seen last near each crank angle asked for.
+    fn coefficients(
+        &self,
+        case: &BearingCase,
+        film: &mut dyn FilmForce,
+    ) -> Result<Vec<InstantCoefficients>, FilmError> {
+        let has_tilt = film.capabilities().accepts_tilt;
+        let mut all = Vec::new();
+        for request in &self.requests {
+            let Some((point, instant)) = &request.seen else {
+                continue;
+            };
+            let (coefficients, outcome) =
+                instant_coefficients(film, &point.state, instant, &conditions(case))?;
+            let turns = ((request.crank_angle - point.crank_angle) / self.period).round();
+            all.push(InstantCoefficients {
+                crank_angle: point.crank_angle + turns * self.period,
+                load: point.load,
+                coefficients,
+                has_tilt,
+                outcome: match point.outcome {
+                    Outcome::Converged => outcome,
+                    failed => failed,
+                },
+            });
+        }
+        Ok(all)
     }
 }
