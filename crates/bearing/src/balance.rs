@@ -118,6 +118,19 @@ impl Motion {
         }
     }
 
+    /// The same motion where the tilt (rad) has this rate (rad/s), whatever the step makes of it.
+    pub(crate) fn with_tilt_rate(mut self, tilt: [f64; 2], rate: [f64; 2]) -> Self {
+        if let Self::Moving {
+            anchor, duration, ..
+        } = &mut self
+        {
+            for axis in 0..2 {
+                anchor[axis + 2] = tilt[axis] - *duration * rate[axis];
+            }
+        }
+        self
+    }
+
     fn mass(&self) -> f64 {
         match *self {
             Self::AtRest => 0.0,

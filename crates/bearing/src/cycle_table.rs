@@ -1,10 +1,12 @@
 //! What acts on the bearing at any crank angle?
 //!
-//! Between its rows the load table is linear, over its end it is periodic. The angles that journal
+//! Between its rows the load table is linear, over its end it is periodic. A prescribed tilt is a
+//! periodic cubic between its rows, so that its rate, which squeezes the film, is continuous: the
+//! slope at a row is that of the parabola through the row and its neighbours. The angles that journal
 //! and shell have turned are the integrals of their speeds over time from crank angle 0, where the
 //! journal's +X lies on the frame's +X; the linear interpolation is integrated exactly.
 
-use crate::{LoadCycle, LoadPoint};
+use crate::{CycleTilt, LoadCycle, LoadPoint};
 use sommerfeld_film::{FilmError, JournalState};
 
 /// A checked load table with the surface angles at its rows.
@@ -15,6 +17,15 @@ pub(crate) struct CycleTable<'a> {
     turned: Vec<[f64; 2]>,
     /// The same at crank angle 0.
     turned_at_zero: [f64; 2],
+    /// Change of the prescribed tilt per crank angle at each row; empty where none is prescribed.
+    tilt_slopes: Vec<[f64; 2]>,
+}
+
+/// Tilt about X and Y (rad) and its rate (rad/s).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HeldTilt {
+    pub tilt: [f64; 2],
+    pub rate: [f64; 2],
 }
 
 impl<'a> CycleTable<'a> {
@@ -27,7 +38,11 @@ impl<'a> CycleTable<'a> {
             cycle,
             turned: vec![[0.0; 2]],
             turned_at_zero: [0.0; 2],
+            tilt_slopes: Vec::new(),
         };
+        if let CycleTilt::Prescribed(tilts) = &cycle.tilt {
+            table.tilt_slopes = table.slopes(tilts);
+        }
         let mut angles = [0.0; 2];
         for interval in 0..cycle.points.len() {
             let (from, to) = table.interval(interval);
@@ -48,20 +63,75 @@ impl<'a> CycleTable<'a> {
     /// All rows are equal.
     pub(crate) fn is_constant(&self) -> bool {
         let first = &self.cycle.points[0];
-        self.cycle.points.iter().all(|point| {
-            point.load == first.load
-                && point.moment == first.moment
-                && point.journal_speed == first.journal_speed
-                && point.shell_speed == first.shell_speed
+        let tilt_is_constant = match &self.cycle.tilt {
+            CycleTilt::Prescribed(tilts) => tilts.iter().all(|tilt| *tilt == tilts[0]),
+            CycleTilt::Aligned | CycleTilt::Free => true,
+        };
+        tilt_is_constant
+            && self.cycle.points.iter().all(|point| {
+                point.load == first.load
+                    && point.moment == first.moment
+                    && point.journal_speed == first.journal_speed
+                    && point.shell_speed == first.shell_speed
+            })
+    }
+
+    /// The tilt is free and answers the moments.
+    pub(crate) fn frees_tilt(&self) -> bool {
+        self.cycle.tilt == CycleTilt::Free
+    }
+
+    /// The tilt is prescribed.
+    pub(crate) fn holds_tilt(&self) -> bool {
+        matches!(self.cycle.tilt, CycleTilt::Prescribed(_))
+    }
+
+    /// The journal never tilts.
+    pub(crate) fn is_aligned(&self) -> bool {
+        self.cycle.tilt == CycleTilt::Aligned
+    }
+
+    /// The prescribed tilt and its rate at a crank angle (rad, any turn).
+    pub(crate) fn held_tilt(&self, crank_angle: f64) -> Option<HeldTilt> {
+        let CycleTilt::Prescribed(tilts) = &self.cycle.tilt else {
+            return None;
+        };
+        let (_, index, s) = self.locate(crank_angle);
+        let (from, to) = self.interval(index);
+        let length = to.crank_angle - from.crank_angle;
+        let next = (index + 1) % tilts.len();
+        let (slope_from, slope_to) = (self.tilt_slopes[index], self.tilt_slopes[next]);
+        let axis = |axis: usize| {
+            let (a, b) = (tilts[index][axis], tilts[next][axis]);
+            let (p, q) = (length * slope_from[axis], length * slope_to[axis]);
+            let square = 3.0 * (b - a) - 2.0 * p - q;
+            let cube = 2.0 * (a - b) + p + q;
+            let value = a + s * (p + s * (square + s * cube));
+            let slope = (p + s * (2.0 * square + s * 3.0 * cube)) / length;
+            (value, slope * self.cycle.engine_speed)
+        };
+        let (x, y) = (axis(0), axis(1));
+        Some(HeldTilt {
+            tilt: [x.0, y.0],
+            rate: [x.1, y.1],
         })
     }
 
-    /// Any row holds a moment.
-    pub(crate) fn has_moments(&self) -> bool {
-        self.cycle
-            .points
-            .iter()
-            .any(|point| point.moment != [0.0; 2])
+    /// Slopes of a row value at each row: of the parabola through it and its neighbours.
+    fn slopes(&self, values: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let count = values.len();
+        let secant = |index: usize| {
+            let (from, to) = self.interval(index);
+            let length = to.crank_angle - from.crank_angle;
+            let (a, b) = (values[index], values[(index + 1) % count]);
+            (length, [0, 1].map(|axis| (b[axis] - a[axis]) / length))
+        };
+        (0..count)
+            .map(|row| {
+                let ((before, s0), (behind, s1)) = (secant((row + count - 1) % count), secant(row));
+                [0, 1].map(|axis| (s0[axis] * behind + s1[axis] * before) / (before + behind))
+            })
+            .collect()
     }
 
     /// Largest load, N.
@@ -168,6 +238,14 @@ fn check(cycle: &LoadCycle) -> Result<(), FilmError> {
     if !finite {
         return refuse("the load table holds a value that is not finite");
     }
+    if let CycleTilt::Prescribed(tilts) = &cycle.tilt {
+        if tilts.len() != cycle.points.len() {
+            return refuse("a prescribed tilt needs one value for each row of the load table");
+        }
+        if !tilts.iter().flatten().all(|tilt| tilt.is_finite()) {
+            return refuse("the prescribed tilt holds a value that is not finite");
+        }
+    }
     Ok(())
 }
 
@@ -197,7 +275,54 @@ mod tests {
             period: TAU,
             engine_speed: 100.0,
             journal_mass: 0.0,
+            tilt: CycleTilt::Aligned,
         }
+    }
+
+    #[test]
+    fn a_prescribed_tilt_is_met_at_its_rows_and_its_rate_is_its_derivative() {
+        let mut cycle = cycle();
+        let rows = vec![[1e-4, 0.0], [3e-4, -2e-4], [0.0, 1e-4]];
+        cycle.tilt = CycleTilt::Prescribed(rows.clone());
+        let table = CycleTable::new(&cycle).unwrap();
+        for (point, tilt) in cycle.points.iter().zip(&rows) {
+            let held = table.held_tilt(point.crank_angle + TAU).unwrap();
+            assert!((held.tilt[0] - tilt[0]).hypot(held.tilt[1] - tilt[1]) < 1e-16);
+        }
+        let step = 1e-5;
+        for angle in [-0.99, -0.3, 1.0, 1.7, 2.0, 4.0, TAU - 1.0] {
+            let at = |angle| table.held_tilt(angle).unwrap();
+            let (before, here, behind) = (at(angle - step), at(angle), at(angle + step));
+            for axis in 0..2 {
+                let rate = (behind.tilt[axis] - before.tilt[axis]) / (2.0 * step) * 100.0;
+                let error = (here.rate[axis] - rate).abs();
+                assert!(error < 1e-6, "{angle}: {} {rate}", here.rate[axis]);
+            }
+        }
+        cycle.points.pop();
+        assert!(CycleTable::new(&cycle).is_err());
+    }
+
+    #[test]
+    fn a_smooth_tilt_is_followed_to_third_order() {
+        let errors = [20_u32, 40].map(|count| {
+            let angle = |row: u32| TAU * f64::from(row) / f64::from(count);
+            let mut cycle = cycle();
+            cycle.points = (0..count).map(|i| row(angle(i), 1.0, 100.0)).collect();
+            cycle.tilt =
+                CycleTilt::Prescribed((0..count).map(|i| angle(i).sin_cos().into()).collect());
+            let table = CycleTable::new(&cycle).unwrap();
+            let mut worst = [0.0_f64; 2];
+            for i in 0..777 {
+                let at = TAU * f64::from(i) / 777.0;
+                let held = table.held_tilt(at).unwrap();
+                worst[0] = worst[0].max((held.tilt[0] - at.sin()).abs());
+                worst[1] = worst[1].max((held.rate[0] / 100.0 - at.cos()).abs());
+            }
+            worst
+        });
+        assert!(errors[0][0] / errors[1][0] > 7.0, "{errors:?}");
+        assert!(errors[0][1] / errors[1][1] > 3.5, "{errors:?}");
     }
 
     #[test]

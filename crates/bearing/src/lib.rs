@@ -9,12 +9,14 @@ pub mod equilibrium;
 pub mod load_cycle;
 pub mod orbit;
 pub mod stability;
+pub mod stability_chart;
 mod step_control;
 mod time_step;
 
 pub use balance::IterationRow;
-pub use coefficients::Coefficients;
+pub use coefficients::{Coefficients, instant_coefficients};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
-pub use load_cycle::{CyclePoint, JournalOrbit, LoadCycle, LoadPoint};
+pub use load_cycle::{CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint};
 pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
-pub use stability::{WhirlThreshold, whirl_threshold};
+pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
+pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};

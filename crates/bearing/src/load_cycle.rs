@@ -18,6 +18,21 @@ pub struct LoadPoint {
     pub shell_speed: f64,
 }
 
+/// What holds the tilt of the journal over the cycle.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CycleTilt {
+    /// The journal stays parallel to the shell.
+    #[default]
+    Aligned,
+    /// The tilt is free and answers the moments of the table.
+    Free,
+    /// The tilt is prescribed: rotation vector about X and Y, rad, one for each row. Between the rows
+    /// it is a periodic cubic with the slopes of the parabolas through three rows: tilt and tilt rate
+    /// are continuous, and both enter the film.
+    Prescribed(Vec<[f64; 2]>),
+}
+
 /// A periodic load table: linear between its rows, which are sorted by crank angle, do not repeat
 /// the first row at the end, and span less than one period.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -30,6 +45,9 @@ pub struct LoadCycle {
     pub engine_speed: f64,
     /// Mass that moves with the journal, kg; 0 for a massless journal.
     pub journal_mass: f64,
+    /// What holds the tilt.
+    #[serde(default)]
+    pub tilt: CycleTilt,
 }
 
 /// The bearing at one crank angle of the periodic orbit.
@@ -39,7 +57,8 @@ pub struct CyclePoint {
     pub crank_angle: f64,
     /// Load on the journal, N.
     pub load: [f64; 2],
-    /// Moment on the journal, N m.
+    /// Moment on the journal, N m: of the load table or, where the tilt is prescribed, the one that
+    /// it takes to hold it.
     pub moment: [f64; 2],
     /// Journal state in the shell frame.
     pub state: JournalState,

@@ -2,15 +2,15 @@
 //!
 //! Equation: `force(position, rate, film content) + load(t) = mass x acceleration` over one period of
 //! the load table, with position (and film content) at its end as at its start.
-//! Unknowns: journal position, m, and tilt, rad, where the film answers to tilt and the table holds
-//! moments (else the tilt stays 0).
+//! Unknowns: journal position, m, and tilt, rad, where it is free ([`crate::CycleTilt`]); a prescribed
+//! tilt enters the film with its rate, and the moment that holds it follows.
 //! Method: implicit in time ([`crate::time_step`]), steps adapted inside each output crank step
 //! ([`crate::step_control`]), journal and film brought to balance by one interleaved Newton
 //! ([`crate::balance`]); cycles are run until two successive ones agree.
 //! References: J. F. Booker, J. Basic Eng. 87 (1965) 537, 10.1115/1.3650602; P. K. Goenka, J.
 //! Tribol. 106 (1984) 421, 10.1115/1.3260949.
 
-use crate::balance::{NewtonLimits, add, coordinates, with_motion};
+use crate::balance::{NewtonLimits, add, coordinates, length, with_motion};
 use crate::cycle_table::CycleTable;
 use crate::equilibrium::{EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 use crate::step_control::Substeps;
@@ -207,11 +207,14 @@ impl<'a> Run<'a> {
         }
         let count = settings.points_per_cycle(cycle);
         let capabilities = film.capabilities();
+        if !(table.is_aligned() || capabilities.accepts_tilt) {
+            return Err(FilmError::NoTilt);
+        }
         let stepper = Stepper {
             conditions,
             engine_speed: cycle.engine_speed,
             mass: cycle.journal_mass,
-            with_tilt: capabilities.accepts_tilt && table.has_moments(),
+            with_tilt: table.frees_tilt(),
             arm: 0.5 * bearing.width,
             force_scale: table.largest_load().max(f64::MIN_POSITIVE),
             limits: NewtonLimits {
@@ -256,7 +259,7 @@ impl<'a> Run<'a> {
     fn start(&mut self, observer: &mut Observer<'_>) -> Result<Option<Outcome>, FilmError> {
         let (state, history) = self.start_state()?;
         self.moving.position = coordinates(&state);
-        if self.stepper.mass > 0.0 {
+        if self.stepper.mass > 0.0 || self.stepper.table.holds_tilt() {
             let ([x, y], [tilt_x, tilt_y]) = (state.velocity, state.tilt_rate);
             self.moving.rate = [x, y, tilt_x, tilt_y];
         }
@@ -288,12 +291,16 @@ impl<'a> Run<'a> {
     /// First state, and the film content that it starts from.
     fn start_state(&mut self) -> Result<(JournalState, FilmHistory), FilmError> {
         let first = self.stepper.table.first_angle();
-        let frame = self.stepper.table.frame(first);
+        let mut frame = self.stepper.table.frame(first);
+        let held = self.stepper.table.held_tilt(first);
+        frame.tilt = held.map_or([0.0; 2], |held| held.tilt);
+        let tilt_rate = held.map_or([0.0; 2], |held| held.rate);
         if let OrbitStart::At(state) = self.settings.start {
             let motion = with_motion(&frame, coordinates(&state), [0.0; 4]);
             let state = JournalState {
                 velocity: state.velocity,
-                tilt_rate: state.tilt_rate,
+                tilt: held.map_or(state.tilt, |held| held.tilt),
+                tilt_rate: held.map_or(state.tilt_rate, |held| held.rate),
                 ..motion
             };
             return Ok((state, self.film.history()));
@@ -314,12 +321,17 @@ impl<'a> Run<'a> {
         self.stepper.film_solves += found.film_updates;
         if found.outcome == Outcome::Converged {
             self.film.accept_step();
-            return Ok((found.state, self.film.history()));
+            let state = JournalState {
+                tilt_rate,
+                ..found.state
+            };
+            return Ok((state, self.film.history()));
         }
         let load = point.load[0].hypot(point.load[1]).max(f64::MIN_POSITIVE);
         let half = 0.5 * self.bearing.radial_clearance / load;
         let state = JournalState {
             position: point.load.map(|component| half * component),
+            tilt_rate,
             ..frame
         };
         Ok((state, FilmHistory::default()))
@@ -470,7 +482,11 @@ impl<'a> Run<'a> {
         let point = CyclePoint {
             crank_angle,
             load: load.load,
-            moment: load.moment,
+            moment: if self.stepper.table.holds_tilt() {
+                linearised.reaction.moment().map(|moment| -moment)
+            } else {
+                load.moment
+            },
             state: *state,
             reaction: linearised.reaction,
             summary: self.film.summary(),
@@ -492,7 +508,7 @@ impl<'a> Run<'a> {
     fn closure(&self, before: &[CyclePoint], number: usize) -> Option<f64> {
         let distance = |a: &CyclePoint, b: &CyclePoint| {
             let change = add(coordinates(&a.state), -1.0, coordinates(&b.state));
-            change[0].hypot(change[1]) / self.bearing.radial_clearance
+            length(change, self.stepper.arm) / self.bearing.radial_clearance
         };
         let largest = |distances: &mut dyn Iterator<Item = f64>| distances.fold(0.0, f64::max);
         if number > 1 {

@@ -7,14 +7,16 @@
 //! on the position. Films with history: the implicit midpoint rule, second order too, with journal and
 //! pressure in the middle of the step and the film content from its start to its end, which keeps the
 //! film fraction between its bounds; its error is estimated from the change of the rate's slope.
-//! Estimates are relative to the smallest gap.
+//! Estimates are relative to the smallest gap. A prescribed tilt enters every stage with its value and
+//! rate there; in the midpoint rule the rate is the change over the step, so that the film content
+//! agrees with it.
 //! References: R. E. Bank et al., IEEE Trans. CAD 4 (1985) 436, 10.1109/TCAD.1985.1270142; M. E.
 //! Hosea, L. F. Shampine, Appl. Numer. Math. 20 (1996) 21, 10.1016/0168-9274(95)00115-8.
 
 use crate::balance::{
     Balance, Balanced, Coordinates, Motion, NewtonLimits, add, coordinates, length, with_motion,
 };
-use crate::cycle_table::CycleTable;
+use crate::cycle_table::{CycleTable, HeldTilt};
 use sommerfeld_film::{Conditions, FilmError, FilmForce, JournalState, Linearised, Outcome, Step};
 use std::f64::consts::SQRT_2;
 
@@ -111,8 +113,16 @@ impl Stepper<'_> {
             step: Step::Steady,
         };
         let middle_angle = from.crank_angle + FIRST_STAGE * angle;
+        let held = self.table.held_tilt(middle_angle);
+        let middle_motion = holding(middle_motion, held);
         let guess = extrapolated(from, FIRST_STAGE * duration, from.slope);
-        let middle = self.solve(film, middle_motion, middle_angle, from.position, guess)?;
+        let middle = self.solve(
+            film,
+            middle_motion,
+            middle_angle,
+            [from.position, guess],
+            held,
+        )?;
         if middle.outcome != Outcome::Converged {
             return Ok(self.trial(film, from, angle, &middle, middle_motion));
         }
@@ -129,17 +139,24 @@ impl Stepper<'_> {
             mass: self.mass,
             step: Step::Steady,
         };
+        let end_angle = from.crank_angle + angle;
+        let held = self.table.held_tilt(end_angle);
+        let motion = holding(motion, held);
         let slope = divided(add(middle_rate, -1.0, from.rate), FIRST_STAGE * duration);
         let guess = extrapolated(from, duration, slope);
-        let end = self.solve(film, motion, from.crank_angle + angle, from.position, guess)?;
+        let end = self.solve(film, motion, end_angle, [from.position, guess], held)?;
         let mut trial = self.trial(film, from, angle, &end, motion);
         let rates = [from.rate, middle_rate, trial.end.rate];
-        let error = ERROR_WEIGHTS
+        let mut error = ERROR_WEIGHTS
             .iter()
             .zip(rates)
             .fold([0.0; 4], |sum, (weight, rate)| {
                 add(sum, weight * duration, rate)
             });
+        if held.is_some() {
+            // A prescribed tilt is exact.
+            error[2..].fill(0.0);
+        }
         trial.error = length(error, self.arm) / self.smallest_gap(film, from, &trial.state);
         if self.mass == 0.0 {
             let rest = (1.0 - FIRST_STAGE) * duration;
@@ -175,7 +192,9 @@ impl Stepper<'_> {
         };
         let guess = add(from.position, half, add(from.rate, since, from.slope));
         let middle_angle = from.crank_angle + 0.5 * angle;
-        let middle = self.solve(film, motion, middle_angle, from.position, guess)?;
+        let held = self.mean_tilt(from.crank_angle, angle);
+        let motion = holding(motion, held);
+        let middle = self.solve(film, motion, middle_angle, [from.position, guess], held)?;
         let mut trial = self.trial(film, from, angle, &middle, motion);
         let rate = trial.end.rate;
         trial.end.position = add(from.position, duration, rate);
@@ -187,7 +206,10 @@ impl Stepper<'_> {
             [0.0; 4]
         };
         if from.rate_is_known {
-            let bend = add(trial.end.slope, -1.0, from.slope);
+            let mut bend = add(trial.end.slope, -1.0, from.slope);
+            if held.is_some() {
+                bend[2..].fill(0.0);
+            }
             let end = with_motion(&trial.state, trial.end.position, rate);
             trial.error = duration * duration / 24.0 * length(bend, self.arm)
                 / self.smallest_gap(film, from, &end);
@@ -213,15 +235,11 @@ impl Stepper<'_> {
             mass: self.mass,
             step: Step::Steady,
         };
+        let held = self.table.held_tilt(start.crank_angle);
+        let motion = holding(motion, held);
         let tolerance = self.limits.step;
         self.limits.step *= 1e-4;
-        let balanced = self.solve(
-            film,
-            motion,
-            start.crank_angle,
-            start.position,
-            start.position,
-        );
+        let balanced = self.solve(film, motion, start.crank_angle, [start.position; 2], held);
         self.limits.step = tolerance;
         let mut trial = self.trial(film, start, 0.0, &balanced?, motion);
         trial.end.position = start.position;
@@ -231,17 +249,32 @@ impl Stepper<'_> {
         Ok(trial)
     }
 
-    /// The balance at a crank angle, from a guess that keeps the gap of `safe` open.
+    /// Mean and change per time of a prescribed tilt over a step of `angle` (rad).
+    fn mean_tilt(&self, from: f64, angle: f64) -> Option<HeldTilt> {
+        let start = self.table.held_tilt(from)?.tilt;
+        let end = self.table.held_tilt(from + angle)?.tilt;
+        let duration = angle / self.engine_speed;
+        Some(HeldTilt {
+            tilt: [0, 1].map(|axis| 0.5 * (start[axis] + end[axis])),
+            rate: [0, 1].map(|axis| (end[axis] - start[axis]) / duration),
+        })
+    }
+
+    /// The balance at a crank angle, from a guess that keeps the gap of a safe position open.
     fn solve(
         &mut self,
         film: &mut dyn FilmForce,
         motion: Motion,
         crank_angle: f64,
-        safe: Coordinates,
-        guess: Coordinates,
+        [mut safe, mut guess]: [Coordinates; 2],
+        held: Option<HeldTilt>,
     ) -> Result<Balanced, FilmError> {
         let point = self.table.at(crank_angle);
         let mut frame = self.table.frame(crank_angle);
+        if let Some(held) = held {
+            safe = under_tilt(film, &frame, safe, held.tilt);
+            guess[2..].copy_from_slice(&held.tilt);
+        }
         frame.tilt = [safe[2], safe[3]];
         let balance = Balance {
             load: point.load,
@@ -289,6 +322,33 @@ impl Stepper<'_> {
         let start = with_motion(end, from.position, from.rate);
         film.minimum_gap(&start).min(film.minimum_gap(end)).abs()
     }
+}
+
+/// The motion with the rate of a prescribed tilt.
+fn holding(motion: Motion, held: Option<HeldTilt>) -> Motion {
+    held.map_or(motion, |held| motion.with_tilt_rate(held.tilt, held.rate))
+}
+
+/// A position under another tilt. Where that would close most of the gap, the journal is moved towards
+/// the centre: it is only where a search starts.
+fn under_tilt(
+    film: &dyn FilmForce,
+    frame: &JournalState,
+    position: Coordinates,
+    tilt: [f64; 2],
+) -> Coordinates {
+    const KEPT_GAP: f64 = 0.3;
+    let gap = |p: Coordinates| film.minimum_gap(&with_motion(frame, p, [0.0; 4]));
+    let floor = KEPT_GAP * gap(position);
+    let mut under = [position[0], position[1], tilt[0], tilt[1]];
+    for _ in 0..100 {
+        if gap(under) >= floor {
+            break;
+        }
+        under[0] *= 0.97;
+        under[1] *= 0.97;
+    }
+    under
 }
 
 fn divided(vector: Coordinates, by: f64) -> Coordinates {

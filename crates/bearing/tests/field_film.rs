@@ -5,8 +5,8 @@ mod common;
 
 use common::{CONDITIONS, plain_bearing, table};
 use sommerfeld_bearing::{
-    EquilibriumRequest, EquilibriumSettings, LoadCycle, LoadPoint, OrbitSettings, find_equilibrium,
-    journal_orbit,
+    CycleTilt, EquilibriumRequest, EquilibriumSettings, LoadCycle, LoadPoint, OrbitSettings,
+    find_equilibrium, journal_orbit,
 };
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmShear, FilmSolver,
@@ -76,6 +76,7 @@ fn diesel_cycle() -> LoadCycle {
         period: 4.0 * PI,
         engine_speed: 2000.0 * PI / 30.0,
         journal_mass: 0.0,
+        tilt: CycleTilt::Aligned,
     }
 }
 
@@ -140,6 +141,7 @@ fn finite_film_on_the_one_axis_cycle() {
         period: 4.0 * PI,
         engine_speed: speed,
         journal_mass: 0.0,
+        tilt: CycleTilt::Aligned,
     };
     let oil = Lubricant::constant(0.00416, 850.0);
     let mut film = FilmSolver::new(&bearing, &oil, [64, 8]).unwrap();

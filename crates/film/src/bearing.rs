@@ -44,13 +44,19 @@ impl Bearing {
     /// they overlap): the journal axis is straight, so it lies at one of the two edges.
     #[must_use]
     pub fn minimum_gap(&self, state: &crate::JournalState) -> f64 {
-        [-0.5, 0.5]
-            .map(|side| {
-                let [x, y] = state.centre_at(side * self.width);
-                self.radial_clearance - x.hypot(y)
-            })
+        self.edge_film_thickness(state)
             .into_iter()
             .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Smallest gap at the front edge (z = -B/2) and at the rear edge (z = +B/2), m; negative where
+    /// the surfaces overlap.
+    #[must_use]
+    pub fn edge_film_thickness(&self, state: &crate::JournalState) -> [f64; 2] {
+        [-0.5, 0.5].map(|side| {
+            let [x, y] = state.centre_at(side * self.width);
+            self.radial_clearance - x.hypot(y)
+        })
     }
 }
 

@@ -82,6 +82,12 @@ pub trait FilmForce {
         FilmHistory::default()
     }
 
+    /// The film's memory at the state last linearised, within an implicit step too: from there the
+    /// film can be looked at again ([`FilmForce::restore`]) without the step that led to it.
+    fn instant(&self) -> FilmHistory {
+        FilmHistory::default()
+    }
+
     /// Puts back a memory taken by [`FilmForce::history`] of the same model.
     fn restore(&mut self, _history: &FilmHistory) {}
 }
@@ -242,6 +248,8 @@ pub struct FeedFlow {
 pub struct FilmSummary {
     /// Smallest film thickness, m, and where.
     pub minimum_film_thickness: Extreme,
+    /// Smallest film thickness at the front edge z = -B/2 and at the rear edge z = +B/2, m.
+    pub edge_film_thickness: [f64; 2],
     /// Largest film pressure (gauge), Pa, and where.
     pub peak_film_pressure: Extreme,
     /// Oil that leaves at the ends z = -B/2 and z = +B/2, m3/s.

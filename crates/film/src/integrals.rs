@@ -184,6 +184,7 @@ impl SolvedFilm<'_> {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let mut summary = FilmSummary {
             minimum_film_thickness: minimum_film(self.bearing, state),
+            edge_film_thickness: self.bearing.edge_film_thickness(state),
             peak_film_pressure: self.peak_pressure(),
             ..FilmSummary::default()
         };

@@ -414,6 +414,17 @@ impl FilmForce for FilmSolver {
         }
     }
 
+    fn instant(&self) -> FilmHistory {
+        let content = self.film.film_fraction.iter().zip(&self.film.gap.mean);
+        FilmHistory {
+            content: if self.closure.conserves_mass() {
+                content.map(|(theta, gap)| theta * gap).collect()
+            } else {
+                Vec::new()
+            },
+        }
+    }
+
     fn restore(&mut self, history: &FilmHistory) {
         self.film.content.clear();
         self.film.content.extend_from_slice(&history.content);

@@ -2,7 +2,7 @@
 
 use crate::limits::{Limit, LimitCheck, Quantity, Verdict};
 use crate::models::Model;
-use sommerfeld_bearing::{CyclePoint, JournalOrbit};
+use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
 use sommerfeld_film::{
     Bearing, Extreme, FeedFlow, FilmField, FilmSummary, JournalState, Outcome, Reaction,
 };
@@ -97,8 +97,40 @@ pub struct SteadyResults {
     pub stiffness: Option<[[f64; 2]; 2]>,
     /// -dF/d(velocity), shell frame, rows force x, y, columns x, y, N s/m.
     pub damping: Option<[[f64; 2]; 2]>,
+    /// Coefficients with tilt and the stability of a rotor, where they were asked for.
+    pub dynamics: Option<Box<Dynamics>>,
     /// The fields, if the film model has any.
     pub field: Option<FieldSnapshot>,
+}
+
+/// The film as a spring and damper of a rotor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dynamics {
+    /// Stiffness and damping, shell frame.
+    pub coefficients: Coefficients,
+    /// The film answers to tilt: the coefficients have rows and columns of tilt, too.
+    pub has_tilt: bool,
+    /// For which masses a rigid rotor is stable.
+    pub stability: Stability,
+    /// Mass of the rotor that the bearing carries, kg, if given.
+    pub rotor_mass: Option<f64>,
+    /// Stability over speed, if asked for.
+    pub chart: Option<StabilityChart>,
+}
+
+/// Stiffness and damping at an instant of an orbit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InstantCoefficients {
+    /// Crank angle, rad.
+    pub crank_angle: f64,
+    /// Load on the journal, N.
+    pub load: [f64; 2],
+    /// Stiffness and damping, shell frame.
+    pub coefficients: Coefficients,
+    /// The film answers to tilt.
+    pub has_tilt: bool,
+    /// How the film of that instant ended.
+    pub outcome: Outcome,
 }
 
 /// A journal orbit over a periodic load.
@@ -112,6 +144,8 @@ pub struct CycleResults {
     pub feed_flows: Vec<Vec<FeedFlow>>,
     /// The fields over the last cycle, if the film model has any.
     pub fields: Option<CycleFields>,
+    /// Stiffness and damping at the crank angles asked for.
+    pub coefficients: Vec<InstantCoefficients>,
 }
 
 /// The fields over the last cycle: single instants, and what each point of a surface has seen.
@@ -209,6 +243,16 @@ pub fn status_name(outcome: Outcome) -> &'static str {
         Outcome::NotConverged => "not-converged",
         Outcome::Starved => "starved",
         Outcome::NoSolution => "no-solution",
+    }
+}
+
+/// With which rotors a film is stable, in words.
+#[must_use]
+pub fn stability_name(stability: Stability) -> &'static str {
+    match stability {
+        Stability::Below(_) => "stable below the threshold mass",
+        Stability::EveryMass => "stable with every mass",
+        Stability::NoMass => "unstable with every mass",
     }
 }
 
@@ -366,7 +410,17 @@ impl SteadyResults {
         let damping = self.damping.map(|d| rows(d, "damping_n_s_m", "N s/m"));
         figures.extend(stiffness.map(|text| ("stiffness", text)));
         figures.extend(damping.map(|text| ("damping", text)));
+        if let Some(dynamics) = &self.dynamics {
+            figures.extend(dynamics.key_figures(self.state.journal_speed));
+        }
         figures
+    }
+
+    /// Direction of the load, rad from +X; `None` without a load.
+    #[must_use]
+    pub fn load_angle(&self) -> Option<f64> {
+        let [x, y] = self.load.filter(|load| *load != [0.0, 0.0])?;
+        Some(y.atan2(x))
     }
 
     /// Eccentricity in the mid-plane over the radial clearance.
@@ -394,6 +448,44 @@ impl SteadyResults {
             &self.bearing,
             self.load.unwrap_or_else(|| self.reaction.force()),
         )
+    }
+}
+
+impl Dynamics {
+    fn key_figures(&self, journal_speed: f64) -> Vec<(&'static str, String)> {
+        let mut figures = Vec::new();
+        figures.push((
+            "whirl threshold mass",
+            match self.stability {
+                Stability::Below(threshold) => {
+                    let ratio = threshold.whirl_speed / journal_speed.abs();
+                    format!("{:.5} kg (whirl ratio {ratio:.4})", threshold.mass)
+                }
+                Stability::EveryMass => "none: stable with every rotor mass".to_owned(),
+                Stability::NoMass => "none: unstable with every rotor mass".to_owned(),
+            },
+        ));
+        if let Some(mass) = self.rotor_mass {
+            let word = if self.stability.is_stable(mass) {
+                "stable"
+            } else {
+                "unstable"
+            };
+            let margin = self.stability.margin(mass);
+            figures.push(("rotor", format!("{word}, margin {margin:.4}")));
+        }
+        for onset in self.chart.iter().flat_map(|chart| &chart.onsets) {
+            let side = if onset.is_unstable_above {
+                "above"
+            } else {
+                "below"
+            };
+            figures.push((
+                "whirl onset",
+                format!("unstable {side} {:.2} rpm", rpm(onset.journal_speed)),
+            ));
+        }
+        figures
     }
 }
 
@@ -499,6 +591,19 @@ impl CycleResults {
         point.state.eccentricity() / self.bearing.radial_clearance
     }
 
+    /// The point with the thinnest film at an edge: 0 the front (z = -B/2), 1 the rear (z = +B/2).
+    #[must_use]
+    pub fn thinnest_edge(&self, edge: usize) -> Option<&CyclePoint> {
+        self.largest(|point| -point.summary.edge_film_thickness[edge])
+    }
+
+    /// The journal tilts somewhere in the cycle.
+    #[must_use]
+    pub fn is_tilted(&self) -> bool {
+        let points = &self.orbit.points;
+        points.iter().any(|point| point.state.tilt != [0.0; 2])
+    }
+
     /// Points at which the step did not converge.
     pub fn not_converged(&self) -> impl Iterator<Item = &CyclePoint> {
         self.orbit
@@ -506,6 +611,12 @@ impl CycleResults {
             .iter()
             .filter(|point| point.outcome != Outcome::Converged)
     }
+}
+
+/// An angular speed in revolutions per minute.
+#[must_use]
+pub fn rpm(speed: f64) -> f64 {
+    speed * 30.0 / std::f64::consts::PI
 }
 
 fn micrometres(metres: f64, key: &str, bars: ErrorBars<'_>) -> String {

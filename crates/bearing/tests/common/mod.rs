@@ -39,3 +39,15 @@ pub fn table(path: &str) -> Vec<Vec<f64>> {
         })
         .collect()
 }
+
+/// Cells of a committed table: comments and the header left out.
+pub fn text_table(path: &str) -> Vec<Vec<String>> {
+    let path = format!("{}/../../validation/{path}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path)
+        .unwrap()
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .skip(1)
+        .map(|line| line.split(',').map(|cell| cell.trim().to_owned()).collect())
+        .collect()
+}

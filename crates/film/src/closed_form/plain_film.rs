@@ -173,6 +173,7 @@ impl PlainFilm {
                 angle: state.line_of_centres_angle(),
                 axial: 0.0,
             },
+            edge_film_thickness: [self.minimum_gap(state); 2],
             peak_film_pressure: peak,
             side_flow: [end_flow; 2],
             mass_balance_relative: if end_flow > 0.0 { 1.0 } else { 0.0 },

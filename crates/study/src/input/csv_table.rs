@@ -34,6 +34,7 @@ pub(super) struct Layout<const N: usize> {
 /// A table as read.
 pub(super) struct CsvTable<'t, const N: usize> {
     file: &'t str,
+    header: Line<'t>,
     columns: Vec<Column<'t>>,
     /// Its rows in the order of the file, one at least.
     pub(super) rows: Vec<Row<'t, N>>,
@@ -127,6 +128,7 @@ pub(super) fn read_table<'t, const N: usize>(
     }
     Ok(CsvTable {
         file,
+        header,
         columns,
         rows,
     })
@@ -146,6 +148,14 @@ impl<const N: usize> CsvTable<'_, N> {
         message: impl Into<String>,
     ) -> InputError {
         row.line.error(self.file, self.cell(row, index).1, message)
+    }
+
+    /// An error at the head of a column of the layout.
+    pub(super) fn error_in_header(&self, index: usize, message: impl Into<String>) -> InputError {
+        let at = self.columns.iter().position(|column| column.index == index);
+        let cell = at.and_then(|at| self.header.cells().nth(at));
+        let span = cell.map_or(0..0, |(_, span)| span);
+        self.header.error(self.file, span, message)
     }
 
     fn cell<'r>(&self, row: &Row<'r, N>, index: usize) -> (&'r str, Range<usize>) {

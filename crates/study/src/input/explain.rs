@@ -52,6 +52,7 @@ fn details(key: &Key) -> Vec<(&'static str, String)> {
         Kind::Number(range)
         | Kind::Quantity(_, range)
         | Kind::QuantityOrLaw(_, range)
+        | Kind::List(_, range)
         | Kind::Limit(_, range)
             if range.low.is_finite() || range.high.is_finite() =>
         {
@@ -87,6 +88,7 @@ fn kind(kind: &Kind) -> String {
         Kind::Quantity(dimension, _) => units(dimension),
         Kind::QuantityOrLaw(dimension, _) => format!("{}, or a table", units(dimension)),
         Kind::Pair(dimension) => format!("[x, y], each a {}", units(dimension)),
+        Kind::List(dimension, _) => format!("a list, each a {}", units(dimension)),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
         Kind::Choice(built, planned) => {

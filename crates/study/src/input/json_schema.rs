@@ -85,6 +85,9 @@ fn plain(kind: &Kind) -> Value {
         Kind::Pair(dimension) => json!({
             "type": "array", "items": quantity(dimension), "minItems": 2, "maxItems": 2,
         }),
+        Kind::List(dimension, _) => json!({
+            "type": "array", "items": quantity(dimension), "minItems": 1,
+        }),
         Kind::Grid => {
             let [around, axial] = GRID_LIMITS
                 .map(|[low, high]| json!({ "type": "integer", "minimum": low, "maximum": high }));

@@ -1,8 +1,8 @@
 //! The keys of the study file, schema 1.
 
 use super::schema::Kind::{
-    Choice, Flag, Grid, Integer, Limit, NotBuilt, Number, Pair, Quantity, QuantityOrLaw, Table,
-    TableList, Text,
+    Choice, Flag, Grid, Integer, Limit, List, NotBuilt, Number, Pair, Quantity, QuantityOrLaw,
+    Table, TableList, Text,
 };
 use super::schema::Mode::{self, Coefficients, Dimensionless, Equilibrium, Film, LoadCycle};
 use super::schema::Presence::{self, Default, Optional, Required};
@@ -13,6 +13,7 @@ const ALL: &[Mode] = &[Film, Dimensionless, Equilibrium, Coefficients, LoadCycle
 const PHYSICAL: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle];
 const OPERATED: &[Mode] = &[Film, Equilibrium, Coefficients];
 const STEADY: &[Mode] = &[Equilibrium, Coefficients];
+const TURNING: &[Mode] = &[Coefficients];
 const ONE_FILM: &[Mode] = &[Film];
 const ANY_FILM: &[Mode] = &[Film, Dimensionless];
 const SCALED: &[Mode] = &[Dimensionless];
@@ -123,6 +124,9 @@ pub const KEYS: &[Key] = &[
     key("operation.shell_speed", Quantity(Dimension::AngularSpeed, SPEED), Default("0 rpm"), OPERATED, "Angular speed of the shell, relative to the frame of the loads.", "\"0 rpm\""),
     key("operation.load", Pair(Dimension::Force), Required, STEADY, "Load that the machine puts ON the journal, along X and Y.", "[\"10 kN\", \"0 N\"]"),
     key("operation.moment", Pair(Dimension::Moment), Optional, STEADY, "Moment ON the journal about X and Y; given, the tilt is free and answers it.", "[\"0 N.m\", \"0 N.m\"]"),
+    key("operation.rotor_mass", Quantity(Dimension::Mass, Range::above(0.0, 1e6, "kg")), Optional, TURNING, "Mass of the rigid rotor that one bearing carries: is it stable, and how far from whirling?", "\"50 kg\""),
+    key("operation.speeds", List(Dimension::AngularSpeed, Range::above(0.0, 1e6, "rpm")), Optional, TURNING,
+        "Ascending journal speeds of the stability chart, at this load, oil and clearance; with rotor_mass, the speed where the rotor begins to whirl is found between them.", "[\"1000 rpm\", \"2000 rpm\", \"4000 rpm\"]"),
     key("operation.relative_eccentricity", Number(Range::between(0.0, f64::INFINITY, "")), Required, ANY_FILM, "Distance of the centres over the radial clearance.", "0.5 to 0.99"),
     key("operation.line_of_centres_angle", Quantity(Dimension::Angle, Range::ANY), Default("0 deg"), ONE_FILM, "Angle from +X to the narrowest gap.", "\"30 deg\""),
     key("operation.relative_eccentricity_rate", Quantity(Dimension::Rate, Range::ANY), Default("0 1/s"), ONE_FILM, "How fast the relative eccentricity grows.", "\"20 1/s\""),
@@ -138,12 +142,14 @@ pub const KEYS: &[Key] = &[
 
     key("load_cycle", Table, Required, CYCLE, "The load over one period.", ""),
     key("load_cycle.file", Text, Required, CYCLE,
-        "CSV beside the study: crank_angle[deg],load_x[N],load_y[N](,journal_speed[rad/s],shell_speed[rad/s],moment_x[N.m],moment_y[N.m]), loads ON the journal.", "\"loads.csv\""),
+        "CSV beside the study: crank_angle[deg],load_x[N],load_y[N](,journal_speed[rad/s],shell_speed[rad/s]), loads ON the journal; with moment_x[N.m],moment_y[N.m] ON the journal the tilt is free, with tilt_x[rad],tilt_y[rad] it is prescribed.", "\"loads.csv\""),
     key("load_cycle.engine_speed", Quantity(Dimension::AngularSpeed, Range::above(0.0, 1e6, "rpm")), Required, CYCLE, "Crank speed: sets time, and the speeds where their columns are missing.", "\"2000 rpm\""),
     key("load_cycle.period", Quantity(Dimension::Angle, Range::above(0.0, 36_000.0, "deg")), Default("720 deg"), CYCLE, "Period of the load.", "\"720 deg\" four-stroke, \"360 deg\" two-stroke"),
     key("load_cycle.journal_mass", Quantity(Dimension::Mass, Range::between(0.0, 1e6, "kg")), Default("0 kg"), CYCLE, "Mass that moves with the journal centre.", "\"0 kg\""),
     key("load_cycle.crank_step", Quantity(Dimension::Angle, Range::between(0.001, 30.0, "deg")), Default("1 deg"), CYCLE, "Crank angle between two rows of the results; divides the period.", "\"1 deg\""),
     key("load_cycle.maximum_cycles", Integer(1, 1000), Default("8"), CYCLE, "Cycles after which an orbit that has not closed is given up.", "8"),
+    key("load_cycle.coefficients_at", List(Dimension::Angle, Range::ANY), Optional, CYCLE,
+        "Crank angles at which stiffness and damping are taken, each at the nearest row of the results.", "[\"10 deg\", \"370 deg\"]"),
     key("load_cycle.closure_tolerance", Number(Range::above(0.0, 0.1, "")), Default("1e-4"), CYCLE,
         "The orbit is closed when two cycles differ by less, over the radial clearance.", "1e-4"),
 

@@ -1,14 +1,14 @@
 //! The load table of a load-cycle study: CSV with the unit of each column in its header.
 //!
 //! `crank_angle[deg],load_x[N],load_y[N]` and, in any order, `journal_speed`, `shell_speed`,
-//! `moment_x`, `moment_y`; lines that start with `#` are comments. Loads and moments act ON the
-//! journal. Angles ascend, may start anywhere and span at most one period; the last row may repeat
-//! the first.
+//! and `moment_x`, `moment_y`, which free the tilt, or `tilt_x`, `tilt_y`, which prescribe it; lines
+//! that start with `#` are comments. Loads and moments act ON the journal. Angles ascend, may start
+//! anywhere and span at most one period; the last row may repeat the first.
 
 use super::csv_table::{self, CsvTable, Layout, read_table};
 use super::error::InputError;
 use super::units::Dimension;
-use sommerfeld_bearing::{LoadCycle, LoadPoint};
+use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 
 /// A closing step above this share of a column's range is a warning.
 const CLOSING_STEP: f64 = 0.05;
@@ -31,14 +31,12 @@ pub struct CycleSettings {
 pub struct LoadTable {
     /// The load cycle.
     pub cycle: LoadCycle,
-    /// The table gives moments.
-    pub has_moments: bool,
     /// What the user should know.
     pub warnings: Vec<InputError>,
 }
 
 /// Columns a load table may have.
-const COLUMNS: [(&str, Dimension); 7] = [
+const COLUMNS: [(&str, Dimension); 9] = [
     ("crank_angle", Dimension::Angle),
     ("load_x", Dimension::Force),
     ("load_y", Dimension::Force),
@@ -46,18 +44,22 @@ const COLUMNS: [(&str, Dimension); 7] = [
     ("shell_speed", Dimension::AngularSpeed),
     ("moment_x", Dimension::Moment),
     ("moment_y", Dimension::Moment),
+    ("tilt_x", Dimension::Angle),
+    ("tilt_y", Dimension::Angle),
 ];
 /// The first columns of [`COLUMNS`] must be there.
 const REQUIRED: usize = 3;
 const MOMENTS: [usize; 2] = [5, 6];
+const TILTS: [usize; 2] = [7, 8];
 const HEADER: &str = "crank_angle[deg],load_x[N],load_y[N], then as needed journal_speed[rad/s],\
-                      shell_speed[rad/s],moment_x[N.m],moment_y[N.m]";
+                      shell_speed[rad/s], and moment_x[N.m],moment_y[N.m] or tilt_x[mrad],\
+                      tilt_y[mrad]";
 
 const LAYOUT: Layout<{ COLUMNS.len() }> = Layout {
     what: "load table",
     columns: COLUMNS,
     required: REQUIRED,
-    together: &[&MOMENTS],
+    together: &[&MOMENTS, &TILTS],
     header: HEADER,
 };
 
@@ -75,6 +77,9 @@ pub fn read_load_table(
     settings: &CycleSettings,
 ) -> Result<LoadTable, Vec<InputError>> {
     let mut table = read_table(file, text, &LAYOUT)?;
+    if let Some(error) = moments_and_tilts(&table) {
+        return Err(vec![error]);
+    }
     let errors = table.not_ascending(0, "crank angle");
     if !errors.is_empty() {
         return Err(errors);
@@ -92,8 +97,21 @@ pub fn read_load_table(
     warnings.extend(warn_of_missing_angles(file, &table.rows, settings));
     Ok(LoadTable {
         cycle: load_cycle(&table, settings),
-        has_moments: MOMENTS.iter().any(|&index| table.has(index)),
         warnings,
+    })
+}
+
+/// A tilt cannot be prescribed and free.
+fn moments_and_tilts(table: &Table<'_>) -> Option<InputError> {
+    (table.has(MOMENTS[0]) && table.has(TILTS[0])).then(|| {
+        table
+            .error_in_header(TILTS[0], "the load table gives both moments and tilts")
+            .allowing(
+                "moment_x, moment_y, which free the tilt, or tilt_x, tilt_y, which prescribe it",
+            )
+            .hinting(
+                "take one pair of columns out; the moment that holds a prescribed tilt is a result",
+            )
     })
 }
 
@@ -207,6 +225,8 @@ fn load_cycle(table: &Table<'_>, settings: &CycleSettings) -> LoadCycle {
                 shell,
                 moment_x,
                 moment_y,
+                _,
+                _,
             ] = row.values;
             LoadPoint {
                 crank_angle,
@@ -226,6 +246,18 @@ fn load_cycle(table: &Table<'_>, settings: &CycleSettings) -> LoadCycle {
         period: settings.period,
         engine_speed: settings.engine_speed,
         journal_mass: settings.journal_mass,
+        tilt: cycle_tilt(table),
+    }
+}
+
+fn cycle_tilt(table: &Table<'_>) -> CycleTilt {
+    if table.has(TILTS[0]) {
+        let tilts = table.rows.iter();
+        CycleTilt::Prescribed(tilts.map(|row| TILTS.map(|i| row.values[i])).collect())
+    } else if table.has(MOMENTS[0]) {
+        CycleTilt::Free
+    } else {
+        CycleTilt::Aligned
     }
 }
 
@@ -255,7 +287,25 @@ mod tests {
         assert_eq!(table.cycle.points[1].load, [4.0, 2000.0]);
         assert_eq!(table.cycle.points[0].journal_speed, 200.0);
         assert!((table.cycle.points[0].shell_speed - std::f64::consts::PI).abs() < 1e-12);
-        assert!(!table.has_moments);
+        assert_eq!(table.cycle.tilt, CycleTilt::Aligned);
+    }
+
+    #[test]
+    fn moments_free_the_tilt_and_tilts_prescribe_it() {
+        let head = "crank_angle[deg],load_x[N],load_y[N]";
+        let moments = read(&format!(
+            "{head},moment_x[N.m],moment_y[N.m]\n0,1,0,0,0\n360,1,0,0,0\n"
+        ));
+        assert_eq!(moments.unwrap().cycle.tilt, CycleTilt::Free);
+        let tilts = read(&format!(
+            "{head},tilt_y[urad],tilt_x[mrad]\n0,1,0,5,0.1\n360,1,0,-5,0.2\n"
+        ));
+        let CycleTilt::Prescribed(rows) = tilts.unwrap().cycle.tilt else {
+            unreachable!("tilts are given")
+        };
+        for (row, expected) in rows.iter().zip([[1e-4, 5e-6], [2e-4, -5e-6]]) {
+            assert!((row[0] - expected[0]).hypot(row[1] - expected[1]) < 1e-18);
+        }
     }
 
     #[test]

@@ -23,6 +23,6 @@ pub use files::{load_study, study_from_text};
 pub use json_schema::json_schema;
 pub use keys::KEYS;
 pub use study::{
-    Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, SteadyLoad,
-    StoredInstants, Study, StudyLimit, Subject, TiltCondition,
+    Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, Rotor,
+    SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,
 };

@@ -66,6 +66,8 @@ pub enum Kind {
     QuantityOrLaw(Dimension, Range),
     /// Two quantities, along X and Y.
     Pair(Dimension),
+    /// One quantity or more.
+    List(Dimension, Range),
     /// Cells around and along the axis.
     Grid,
     /// One of these words; the second list is planned, and refused by name.

@@ -17,6 +17,8 @@ pub struct Study {
     pub subject: Subject,
     /// How the film is modelled.
     pub film: FilmSettings,
+    /// The rotor whose stability is asked for.
+    pub rotor: Rotor,
     /// Design limits, in the order of the table of keys.
     pub limits: Vec<StudyLimit>,
     /// What the user should know.
@@ -113,6 +115,15 @@ pub struct SteadyLoad {
     pub tilt: TiltCondition,
 }
 
+/// The rigid rotor on the bearing, as far as the analysis `coefficients` asks for its stability.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Rotor {
+    /// Mass that the bearing carries, kg.
+    pub mass: Option<f64>,
+    /// Journal speeds of the stability chart, rad/s, ascending; empty without a chart.
+    pub speeds: Vec<f64>,
+}
+
 /// What holds the tilt of the journal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TiltCondition {
@@ -130,8 +141,8 @@ pub enum TiltCondition {
 pub struct CycleDuty {
     /// The load cycle.
     pub cycle: LoadCycle,
-    /// The table gives moments: the tilt is free.
-    pub tilt_is_free: bool,
+    /// Crank angles at which stiffness and damping are taken, rad.
+    pub coefficients_at: Vec<f64>,
     /// Crank angle between two rows of the results, rad; divides the period.
     pub crank_step: f64,
     /// Cycles after which an orbit that has not closed is given up.

@@ -19,6 +19,8 @@ pub(super) enum Value {
     Flag(bool),
     /// Two quantities in SI.
     Pair([f64; 2]),
+    /// Quantities in SI, one or more.
+    List(Vec<f64>),
     /// Cells around and along the axis.
     Grid([usize; 2]),
     /// A design limit in SI and its source.
@@ -115,6 +117,9 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
             DeValue::Integer(_) | DeValue::Float(_),
         ) => Err(bare_quantity(value, dimension)),
         (Kind::Pair(dimension), DeValue::Array(list)) => pair(list, dimension).map(Value::Pair),
+        (Kind::List(dimension, range), DeValue::Array(list)) => {
+            quantities(list, dimension, range).map(Value::List)
+        }
         (Kind::Grid, DeValue::Array(list)) => grid(list).map(Value::Grid),
         (Kind::Choice(built, planned), DeValue::String(text)) => choice(text, built, planned),
         (kind, value) => Err(Refusal::new(format!(
@@ -140,6 +145,10 @@ fn expected(kind: &Kind) -> String {
         Kind::Pair(dimension) => {
             let unit = dimension.units().first().copied().unwrap_or_default();
             format!("two quantities, [\"1 {unit}\", \"0 {unit}\"]")
+        }
+        Kind::List(dimension, _) => {
+            let unit = dimension.units().first().copied().unwrap_or_default();
+            format!("a list of quantities, [\"1 {unit}\", \"2 {unit}\"]")
         }
         Kind::Grid => "two whole numbers, [128, 32]".into(),
         Kind::Limit(..) => "a table { value = \"..\", source = \"..\" }".into(),
@@ -250,6 +259,34 @@ fn pair(list: &[Spanned<DeValue<'_>>], dimension: Dimension) -> Result<[f64; 2],
         ))),
     };
     Ok([read(x)?, read(y)?])
+}
+
+/// More quantities than this in a list are no answer to a question.
+const LONGEST_LIST: usize = 1000;
+
+fn quantities(
+    list: &[Spanned<DeValue<'_>>],
+    dimension: Dimension,
+    range: Range,
+) -> Result<Vec<f64>, Refusal> {
+    let wanted = || expected(&Kind::List(dimension, range));
+    if list.is_empty() || list.len() > LONGEST_LIST {
+        return Err(Refusal::new(format!(
+            "has {} values; it must be {}",
+            list.len(),
+            wanted()
+        ))
+        .allowing(format!("1 to {LONGEST_LIST} values")));
+    }
+    list.iter()
+        .map(|value| match value.get_ref() {
+            DeValue::String(text) => quantity(text, dimension, range),
+            other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
+                Err(bare_quantity(other, dimension))
+            }
+            _ => Err(Refusal::new(format!("must be {}", wanted()))),
+        })
+        .collect()
 }
 
 fn grid(list: &[Spanned<DeValue<'_>>]) -> Result<[usize; 2], Refusal> {

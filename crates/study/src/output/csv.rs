@@ -87,6 +87,16 @@ const CYCLE_COLUMNS: &[CycleColumn] = &[
     ("force_y[N]", |p, _| p.reaction.force()[1]),
     ("moment_x[N.m]", |p, _| p.reaction.moment()[0]),
     ("moment_y[N.m]", |p, _| p.reaction.moment()[1]),
+    ("applied_moment_x[N.m]", |p, _| p.moment[0]),
+    ("applied_moment_y[N.m]", |p, _| p.moment[1]),
+    ("tilt_rate_x[rad/s]", |p, _| p.state.tilt_rate[0]),
+    ("tilt_rate_y[rad/s]", |p, _| p.state.tilt_rate[1]),
+    ("minimum_edge_film_front[m]", |p, _| {
+        p.summary.edge_film_thickness[0]
+    }),
+    ("minimum_edge_film_rear[m]", |p, _| {
+        p.summary.edge_film_thickness[1]
+    }),
     ("tilt_x[rad]", |p, _| p.state.tilt[0]),
     ("tilt_y[rad]", |p, _| p.state.tilt[1]),
     ("journal_speed[rad/s]", |p, _| p.state.journal_speed),
@@ -181,7 +191,7 @@ pub fn field_table(field: &FieldSnapshot) -> Result<Vec<u8>, OutputError> {
 }
 
 /// The shortest text that reads back as the same number.
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     if value.is_finite() {
         format!("{value:?}")
     } else {
@@ -190,20 +200,20 @@ fn number(value: f64) -> String {
 }
 
 /// A CSV table in memory that names its file where it fails.
-struct Table {
+pub(super) struct Table {
     file: &'static str,
     writer: csv::Writer<Vec<u8>>,
 }
 
 impl Table {
-    fn new(file: &'static str) -> Self {
+    pub(super) fn new(file: &'static str) -> Self {
         Self {
             file,
             writer: csv::Writer::from_writer(Vec::new()),
         }
     }
 
-    fn row(
+    pub(super) fn row(
         &mut self,
         fields: impl IntoIterator<Item = impl AsRef<[u8]>>,
     ) -> Result<(), OutputError> {
@@ -213,7 +223,7 @@ impl Table {
             .map_err(|error| failed(file, &error))
     }
 
-    fn finish(self) -> Result<Vec<u8>, OutputError> {
+    pub(super) fn finish(self) -> Result<Vec<u8>, OutputError> {
         let file = self.file;
         self.writer
             .into_inner()

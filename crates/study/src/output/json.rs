@@ -6,10 +6,12 @@ use super::{OutputError, ResultWriter};
 use crate::limits::LimitCheck;
 use crate::models::Model;
 use crate::results::{
-    Body, CycleResults, DimensionlessResults, Header, PROGRAM, Results, SCHEMA, SteadyResults,
-    VERSION, degrees, magnitude, specific_load, status_name,
+    Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, PROGRAM,
+    Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load, stability_name,
+    status_name,
 };
 use serde_json::{Map, Value, json};
+use sommerfeld_bearing::Coefficients;
 use std::collections::BTreeMap;
 
 /// Writes `summary.json`.
@@ -141,6 +143,99 @@ fn steady_keys(steady: &SteadyResults) -> Value {
             keys[key] = value;
         }
     }
+    let [front, rear] = summary.edge_film_thickness;
+    keys["minimum_edge_film_front_m"] = json!(front);
+    keys["minimum_edge_film_rear_m"] = json!(rear);
+    if let (Some(dynamics), Value::Object(keys)) = (&steady.dynamics, &mut keys) {
+        let found = &dynamics.coefficients;
+        let load_angle = steady.load_angle();
+        keys.extend(coefficient_keys(found, dynamics.has_tilt, load_angle));
+        keys.extend(stability_keys(dynamics, steady.state.journal_speed));
+    }
+    keys
+}
+
+/// Stiffness and damping beyond the plain ones of the shell frame: turned to the load, and with tilt
+/// where the film has it.
+fn coefficient_keys(
+    found: &Coefficients,
+    has_tilt: bool,
+    load_angle: Option<f64>,
+) -> Map<String, Value> {
+    let mut keys = Map::new();
+    let turned = load_angle.map(|angle| found.turned(angle));
+    if let Some(turned) = &turned {
+        let (stiffness, damping) = (turned.translation_stiffness(), turned.translation_damping());
+        keys.insert("stiffness_load_frame_n_m".into(), json!(stiffness));
+        keys.insert("damping_load_frame_n_s_m".into(), json!(damping));
+    }
+    if has_tilt {
+        keys.insert("stiffness_4x4".into(), json!(found.stiffness));
+        keys.insert("damping_4x4".into(), json!(found.damping));
+        if let Some(turned) = &turned {
+            keys.insert("stiffness_4x4_load_frame".into(), json!(turned.stiffness));
+            keys.insert("damping_4x4_load_frame".into(), json!(turned.damping));
+        }
+        // Rows: force, moment; columns: position, tilt, or their rates. One unit per 2x2 block.
+        let units = json!({
+            "stiffness": [["N/m", "N/rad"], ["N m/m", "N m/rad"]],
+            "damping": [["N s/m", "N s/rad"], ["N m s/m", "N m s/rad"]],
+        });
+        keys.insert("units_4x4".into(), units);
+    }
+    keys
+}
+
+/// Whirl of a rigid rotor. A threshold that is not there is `null`; `whirl_threshold` says why.
+fn stability_keys(dynamics: &Dynamics, journal_speed: f64) -> Map<String, Value> {
+    let threshold = dynamics.stability.threshold();
+    let ratio = threshold.map(|threshold| threshold.whirl_speed / journal_speed.abs());
+    let mut keys = Map::new();
+    keys.insert(
+        "whirl_threshold".into(),
+        json!(stability_name(dynamics.stability)),
+    );
+    keys.insert(
+        "whirl_threshold_mass_kg".into(),
+        json!(threshold.map(|threshold| threshold.mass)),
+    );
+    keys.insert(
+        "whirl_speed_rad_s".into(),
+        json!(threshold.map(|threshold| threshold.whirl_speed)),
+    );
+    keys.insert("whirl_ratio".into(), json!(ratio));
+    if let Some(mass) = dynamics.rotor_mass {
+        keys.insert("rotor_mass_kg".into(), json!(mass));
+        keys.insert("stable".into(), json!(dynamics.stability.is_stable(mass)));
+        let margin = dynamics.stability.margin(mass);
+        keys.insert("stability_margin".into(), json!(margin));
+    }
+    if let Some(chart) = &dynamics.chart {
+        let onsets = chart.onsets.iter().map(|onset| {
+            json!({
+                "journal_speed_rad_s": onset.journal_speed,
+                "whirl_speed_rad_s": onset.whirl_speed,
+                "unstable": if onset.is_unstable_above { "above" } else { "below" },
+            })
+        });
+        keys.insert("whirl_onsets".into(), onsets.collect());
+    }
+    keys
+}
+
+fn instant(found: &InstantCoefficients) -> Value {
+    let matrices = &found.coefficients;
+    let mut keys = json!({
+        "crank_angle_deg": degrees(found.crank_angle),
+        "status": status_name(found.outcome),
+        "stiffness_n_m": matrices.translation_stiffness(),
+        "damping_n_s_m": matrices.translation_damping(),
+    });
+    let [x, y] = found.load;
+    let load_angle = (found.load != [0.0; 2]).then(|| y.atan2(x));
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(coefficient_keys(matrices, found.has_tilt, load_angle));
+    }
     keys
 }
 
@@ -154,7 +249,16 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
             .largest(|point| value(&point.summary))
             .map(|point| value(&point.summary))
     };
-    json!({
+    let edge = |edge: usize| cycle.thinnest_edge(edge);
+    let edge_film = |index: usize| edge(index).map(|p| p.summary.edge_film_thickness[index]);
+    let moment = cycle.largest(|point| magnitude(point.moment));
+    let mut keys = json!({
+        "minimum_edge_film_front_m": edge_film(0),
+        "minimum_edge_film_front_angle_deg": edge(0).map(|p| degrees(p.crank_angle)),
+        "minimum_edge_film_rear_m": edge_film(1),
+        "minimum_edge_film_rear_angle_deg": edge(1).map(|p| degrees(p.crank_angle)),
+        "maximum_applied_moment_n_m": moment.map(|p| magnitude(p.moment)),
+        "maximum_applied_moment_angle_deg": moment.map(|p| degrees(p.crank_angle)),
         "minimum_film_thickness_m": thinnest.map(|p| p.summary.minimum_film_thickness.value),
         "minimum_film_thickness_angle_deg": thinnest.map(|p| degrees(p.crank_angle)),
         "peak_film_pressure_pa": peak.map(|p| p.summary.peak_film_pressure.value),
@@ -175,7 +279,11 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         "points_not_converged": cycle.not_converged().count(),
         "mass_balance_relative": worst(|summary| summary.mass_balance_relative),
         "complementarity_violation": worst(|summary| summary.complementarity_violation),
-    })
+    });
+    if !cycle.coefficients.is_empty() {
+        keys["coefficients"] = cycle.coefficients.iter().map(instant).collect();
+    }
+    keys
 }
 
 fn dimensionless_keys(integrals: &DimensionlessResults) -> Value {

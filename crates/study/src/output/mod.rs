@@ -4,12 +4,14 @@ mod csv;
 mod hdf5;
 mod html;
 mod json;
+mod stability;
 mod vtk;
 
 pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
 pub use hdf5::Hdf5Results;
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
+pub use stability::StabilityTable;
 pub use vtk::ParaView;
 
 use crate::results::Results;
@@ -75,6 +77,7 @@ pub const WRITERS: &[&dyn ResultWriter] = &[
     &FieldTable,
     &Hdf5Results,
     &ParaView,
+    &StabilityTable,
     &HtmlReport,
     &SummaryJson,
 ];

@@ -4,10 +4,12 @@ use super::record::FieldRecorder;
 use super::{ProgressCallback, conditions, film_of, note_outcome};
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, CycleResults, Header};
+use crate::results::{Body, CycleResults, Header, InstantCoefficients};
 use crate::spool::FieldSpool;
-use sommerfeld_bearing::{CyclePoint, JournalOrbit, OrbitSettings, Progress, journal_orbit};
-use sommerfeld_film::{FeedFlow, FilmError, FilmForce, JournalState, Outcome, Step};
+use sommerfeld_bearing::{
+    CyclePoint, JournalOrbit, OrbitSettings, Progress, instant_coefficients, journal_orbit,
+};
+use sommerfeld_film::{FeedFlow, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step};
 use std::ops::ControlFlow;
 
 pub(super) fn solve_cycle(
@@ -31,6 +33,7 @@ pub(super) fn solve_cycle(
         },
         feed_flows: Vec::new(),
         fields: None,
+        coefficients: Vec::new(),
     };
     // Without supply the film would empty over the cycles and the journal sink into the shell.
     let centred = JournalState {
@@ -56,7 +59,7 @@ pub(super) fn solve_cycle(
     };
     let points = orbit_settings.points_per_cycle(&duty.cycle);
     let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure, spool);
-    let mut watch = CycleWatch::new(duty.maximum_cycles, fields);
+    let mut watch = CycleWatch::new(duty, fields);
     let mut film = film_of(case, settings)?;
     let orbit = journal_orbit(
         film.as_mut(),
@@ -73,6 +76,7 @@ pub(super) fn solve_cycle(
             "interrupted: the orbit is that of an unfinished run".to_owned(),
         );
     }
+    let coefficients = watch.coefficients(case, film.as_mut())?;
     let mut feed_flows = watch.feed_flows;
     // The observer also saw the start of a cycle, which is not a point of its own.
     feed_flows.drain(..feed_flows.len().saturating_sub(orbit.points.len()));
@@ -81,11 +85,21 @@ pub(super) fn solve_cycle(
         orbit,
         feed_flows,
         fields: watch.fields.finish(),
+        coefficients,
     })))
+}
+
+/// A crank angle at which coefficients are asked for, and what was seen nearest to it.
+struct Request {
+    crank_angle: f64,
+    seen: Option<(CyclePoint, FilmHistory)>,
 }
 
 /// Copies from the running orbit what its points do not hold, and passes its progress on.
 struct CycleWatch<'a> {
+    requests: Vec<Request>,
+    period: f64,
+    crank_step: f64,
     expected_cycles: usize,
     fields: FieldRecorder<'a>,
     feed_flows: Vec<Vec<FeedFlow>>,
@@ -93,11 +107,21 @@ struct CycleWatch<'a> {
 }
 
 impl<'a> CycleWatch<'a> {
-    fn new(cycle_limit: usize, fields: FieldRecorder<'a>) -> Self {
+    fn new(duty: &CycleDuty, fields: FieldRecorder<'a>) -> Self {
         /// Cycles that most orbits take to close: for the estimate of the time left.
         const USUAL_CYCLES: usize = 4;
         Self {
-            expected_cycles: cycle_limit.min(USUAL_CYCLES),
+            requests: duty
+                .coefficients_at
+                .iter()
+                .map(|&crank_angle| Request {
+                    crank_angle,
+                    seen: None,
+                })
+                .collect(),
+            period: duty.cycle.period,
+            crank_step: duty.crank_step,
+            expected_cycles: duty.maximum_cycles.min(USUAL_CYCLES),
             fields,
             feed_flows: Vec::new(),
             stopped: false,
@@ -116,6 +140,13 @@ impl<'a> CycleWatch<'a> {
                 return ControlFlow::Break(());
             }
         }
+        for request in &mut self.requests {
+            let apart = (point.crank_angle - request.crank_angle).rem_euclid(self.period);
+            let distance = apart.min(self.period - apart);
+            if distance <= 0.500_001 * self.crank_step {
+                request.seen = Some((*point, film.instant()));
+            }
+        }
         self.feed_flows.push(film.feed_flows().to_vec());
         let label = format!("cycle {}", stage.cycle);
         let done = (stage.cycle.saturating_sub(1) as f64 + stage.fraction)
@@ -130,5 +161,34 @@ impl<'a> CycleWatch<'a> {
         let answer = progress(event);
         self.stopped |= answer.is_break();
         answer
+    }
+
+    /// Stiffness and damping at what was seen last near each crank angle asked for.
+    fn coefficients(
+        &self,
+        case: &BearingCase,
+        film: &mut dyn FilmForce,
+    ) -> Result<Vec<InstantCoefficients>, FilmError> {
+        let has_tilt = film.capabilities().accepts_tilt;
+        let mut all = Vec::new();
+        for request in &self.requests {
+            let Some((point, instant)) = &request.seen else {
+                continue;
+            };
+            let (coefficients, outcome) =
+                instant_coefficients(film, &point.state, instant, &conditions(case))?;
+            let turns = ((request.crank_angle - point.crank_angle) / self.period).round();
+            all.push(InstantCoefficients {
+                crank_angle: point.crank_angle + turns * self.period,
+                load: point.load,
+                coefficients,
+                has_tilt,
+                outcome: match point.outcome {
+                    Outcome::Converged => outcome,
+                    failed => failed,
+                },
+            });
+        }
+        Ok(all)
     }
 }

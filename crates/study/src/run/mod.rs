@@ -17,6 +17,7 @@ use crate::results::{Body, DimensionlessResults, Header, Results};
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use inputs::input_rows;
+use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, LongBearingFilm, MobilityFilm, Outcome,
@@ -187,7 +188,7 @@ fn solve_once(
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.duty {
             Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
-            Duty::Load(load) => solve_load(case, load, study, &mut header)?,
+            Duty::Load(load) => solve_load(case, load, study, &mut header, progress)?,
             Duty::Cycle(duty) => {
                 solve_cycle(case, duty, &study.film, &mut header, spool, progress)?
             }
@@ -253,7 +254,7 @@ fn stays_aligned(duty: &Duty) -> bool {
     match duty {
         Duty::State(state) => state.tilt == [0.0; 2] && state.tilt_rate == [0.0; 2],
         Duty::Load(load) => load.tilt == TiltCondition::Fixed([0.0; 2]),
-        Duty::Cycle(duty) => !duty.tilt_is_free,
+        Duty::Cycle(duty) => duty.cycle.tilt == CycleTilt::Aligned,
     }
 }
 

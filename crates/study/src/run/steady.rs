@@ -1,9 +1,13 @@
 //! One state of the journal: given, or found as the equilibrium under a load.
 
-use super::{conditions, film_of, note_outcome};
+use super::{ProgressCallback, conditions, film_of, note_outcome};
 use crate::input::{Analysis, BearingCase, FilmSettings, SteadyLoad, Study, TiltCondition};
-use crate::results::{Body, FieldSnapshot, Header, SteadyResults};
-use sommerfeld_bearing::{Coefficients, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
+use crate::progress::ProgressEvent;
+use crate::results::{Body, Dynamics, FieldSnapshot, Header, SteadyResults, status_name};
+use sommerfeld_bearing::{
+    Coefficients, Equilibrium, EquilibriumRequest, EquilibriumSettings, Stability, StabilityChart,
+    find_equilibrium, rotor_stability, stability_chart,
+};
 use sommerfeld_film::{
     Bearing, Extreme, FilmError, FilmForce, FilmSolver, FilmSummary, Inlet, JournalState,
     Linearised, Outcome, Reaction, Step,
@@ -43,6 +47,7 @@ pub(super) fn solve_load(
     load: &SteadyLoad,
     study: &Study,
     header: &mut Header,
+    progress: &mut ProgressCallback<'_>,
 ) -> Result<Body, FilmError> {
     let mut film = film_of(case, &study.film)?;
     let (tilt, moment) = match load.tilt {
@@ -84,8 +89,99 @@ pub(super) fn solve_load(
         let shown = |matrix| if has_film { matrix } else { [[f64::NAN; 2]; 2] };
         steady.stiffness = Some(shown(coefficients.translation_stiffness()));
         steady.damping = Some(shown(coefficients.translation_damping()));
+        if has_film {
+            let (coefficients, has_tilt) = with_tilt(case, study, film.as_ref(), &found)?;
+            let chart = chart(case, study, film.as_mut(), &request, header, progress)?;
+            let stability = rotor_stability(&coefficients);
+            note_stability(stability, study.rotor.mass, header);
+            steady.dynamics = Some(Box::new(Dynamics {
+                coefficients,
+                has_tilt,
+                stability,
+                rotor_mass: study.rotor.mass,
+                chart,
+            }));
+        }
     }
     Ok(body)
+}
+
+/// Coefficients with tilt. An aligned journal is solved on half a film, which knows none: the whole
+/// film is solved once more at the equilibrium.
+fn with_tilt(
+    case: &BearingCase,
+    study: &Study,
+    film: &dyn FilmForce,
+    found: &Equilibrium,
+) -> Result<(Coefficients, bool), FilmError> {
+    let own = Coefficients::from_tangent(&found.tangent);
+    if film.capabilities().accepts_tilt || !study.film.model.is_field() {
+        return Ok((own, film.capabilities().accepts_tilt));
+    }
+    let mut whole = FilmSolver::new(&case.bearing, &case.lubricant, study.film.grid)?;
+    let answer = whole.react(&found.state, Step::Steady, &conditions(case))?;
+    Ok(match answer.outcome {
+        Outcome::Converged => (Coefficients::from_tangent(&answer.tangent), true),
+        _ => (own, false),
+    })
+}
+
+/// Stability over the speeds of the study, if it names any.
+fn chart(
+    case: &BearingCase,
+    study: &Study,
+    film: &mut dyn FilmForce,
+    request: &EquilibriumRequest,
+    header: &mut Header,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Option<StabilityChart>, FilmError> {
+    if study.rotor.speeds.is_empty() {
+        return Ok(None);
+    }
+    let chart = stability_chart(
+        film,
+        &case.bearing,
+        request,
+        (&study.rotor.speeds, study.rotor.mass),
+        &conditions(case),
+        &mut |share| progress(ProgressEvent::new("stability chart".to_owned(), share)),
+    )?;
+    if chart.points.len() < study.rotor.speeds.len() {
+        header.messages.insert(
+            0,
+            "interrupted: the stability chart is unfinished".to_owned(),
+        );
+    }
+    if chart.outcome != Outcome::Converged && header.status == Outcome::Converged {
+        header.status = chart.outcome;
+        let message = format!(
+            "{}: not every speed of the stability chart; stability.csv tells which",
+            status_name(chart.outcome)
+        );
+        header.messages.insert(0, message);
+    }
+    Ok(Some(chart))
+}
+
+/// Says what a threshold that is not there means, and that a rotor is unstable.
+fn note_stability(stability: Stability, rotor_mass: Option<f64>, header: &mut Header) {
+    match stability {
+        Stability::Below(_) => {}
+        Stability::EveryMass => header.messages.push(
+            "no whirl threshold: small motions of a rigid rotor decay at this speed whatever its mass"
+                .to_owned(),
+        ),
+        Stability::NoMass => header.messages.push(
+            "no whirl threshold: the film drives a rigid rotor away or around at this speed whatever \
+             its mass"
+                .to_owned(),
+        ),
+    }
+    if rotor_mass.is_some_and(|mass| !stability.is_stable(mass)) {
+        header
+            .messages
+            .push("the rotor is unstable at this speed: it whirls".to_owned());
+    }
 }
 
 fn steady(
@@ -122,6 +218,7 @@ fn steady(
         iterations,
         stiffness: None,
         damping: None,
+        dynamics: None,
         field: film.field().filter(|_| has_film).map(FieldSnapshot::from),
     }))
 }
@@ -147,6 +244,7 @@ fn no_summary() -> FilmSummary {
     };
     FilmSummary {
         minimum_film_thickness: nowhere,
+        edge_film_thickness: [f64::NAN; 2],
         peak_film_pressure: nowhere,
         side_flow: [f64::NAN; 2],
         feed_flow: f64::NAN,

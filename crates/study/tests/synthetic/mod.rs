@@ -134,6 +134,7 @@ pub fn load_cycle(title: &str) -> Results {
         },
         feed_flows,
         fields: Some(fields),
+        coefficients: Vec::new(),
     };
     let mut header = header("load-cycle", title);
     header.error = Some(BTreeMap::from([(
@@ -281,6 +282,7 @@ fn summary(state: &JournalState, peak: f64, turned: f64) -> FilmSummary {
             angle: thinnest,
             axial: 0.0146,
         },
+        edge_film_thickness: [CLEARANCE - state.eccentricity(); 2],
         peak_film_pressure: Extreme {
             value: peak,
             angle: thinnest - 0.25,
@@ -370,6 +372,7 @@ pub fn steady(title: &str) -> Results {
         iterations: 7,
         stiffness: Some([[8.12e8, 3.4e8], [-1.27e9, 2.05e9]]),
         damping: Some([[1.94e6, -1.1e6], [-1.1e6, 5.2e6]]),
+        dynamics: None,
         field: Some(field(&state, 141e6)),
         state,
     };

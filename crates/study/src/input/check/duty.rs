@@ -5,11 +5,13 @@ use crate::input::files::{TABLE_CAP, read_text};
 use crate::input::load_file::{CycleSettings, read_load_table};
 use crate::input::schema::Mode;
 use crate::input::study::{
-    BearingCase, CycleDuty, Duty, SteadyLoad, StoredInstants, Subject, TiltCondition,
+    BearingCase, CycleDuty, Duty, Rotor, SteadyLoad, StoredInstants, Subject, TiltCondition,
 };
 use crate::input::values::Value;
+use sommerfeld_bearing::{CycleTilt, LoadCycle};
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
+use std::f64::consts::PI;
 use std::path::Path;
 
 /// Largest number of steps in a period that is taken for an answer to a question.
@@ -26,7 +28,9 @@ impl Checker<'_> {
         let lubricant = temperature.and_then(|temperature| self.lubricant(temperature));
         let duty = match self.mode {
             Mode::Film => self.journal_state(bearing.as_ref()).map(Duty::State),
-            Mode::LoadCycle => self.load_cycle(directory).map(Duty::Cycle),
+            Mode::LoadCycle => self
+                .load_cycle(directory, bearing.as_ref())
+                .map(Duty::Cycle),
             _ => self.steady_load(bearing.as_ref()).map(Duty::Load),
         };
         Some(Subject::Bearing(BearingCase {
@@ -206,7 +210,32 @@ impl Checker<'_> {
         TiltCondition::Fixed(tilt)
     }
 
-    fn load_cycle(&mut self, directory: &Path) -> Option<CycleDuty> {
+    /// The rotor of the analysis `coefficients`, its speeds in order and none without drag.
+    pub(super) fn rotor(&mut self) -> Rotor {
+        const PATH: &str = "operation.speeds";
+        if self.mode != Mode::Coefficients {
+            return Rotor::default();
+        }
+        let speeds = self.list(PATH);
+        if let Some(pair) = speeds.windows(2).find(|pair| pair[1] <= pair[0]) {
+            let [before, behind] = [pair[0], pair[1]].map(|speed| round(speed * 30.0 / PI));
+            let message = format!("the speeds do not ascend: {before} rpm, then {behind} rpm");
+            let error = self.error_at(PATH, message).hinting("sort them, each once");
+            self.errors.push(error);
+        }
+        let shell_speed = self.number("operation.shell_speed").unwrap_or(0.0);
+        if speeds.iter().any(|speed| speed + shell_speed == 0.0) {
+            let message = "at one of the speeds the surfaces drag no oil into the film: it cancels shell_speed";
+            let error = self.error_at(PATH, message).hinting("leave that speed out");
+            self.errors.push(error);
+        }
+        Rotor {
+            mass: self.number("operation.rotor_mass"),
+            speeds,
+        }
+    }
+
+    fn load_cycle(&mut self, directory: &Path, bearing: Option<&Bearing>) -> Option<CycleDuty> {
         let number = |name: &str| self.number(&format!("load_cycle.{name}"));
         let settings = CycleSettings {
             engine_speed: number("engine_speed")?,
@@ -220,20 +249,11 @@ impl Checker<'_> {
         };
         let name = self.text("load_cycle.file")?;
         let table = self.load_table(&directory.join(&name), &settings)?;
-        let has_moments = table.has_moments;
         self.warnings.extend(table.warnings);
-        if has_moments && self.film_model().is_some_and(|model| !model.is_field()) {
-            let error = self
-                .error_at(
-                    "load_cycle.file",
-                    "the load table gives moments, the film model has no tilt",
-                )
-                .hinting("use model = \"field\" or take the moment columns out");
-            self.errors.push(error);
-        }
+        self.check_cycle_tilt(&table.cycle, bearing);
         Some(CycleDuty {
             cycle: table.cycle,
-            tilt_is_free: has_moments,
+            coefficients_at: self.list("load_cycle.coefficients_at"),
             crank_step: crank_step?,
             maximum_cycles: usize::try_from(maximum_cycles).ok()?,
             closure_tolerance,
@@ -244,6 +264,54 @@ impl Checker<'_> {
             },
             step_error_factor: 1.0,
         })
+    }
+
+    /// A tilt needs the field, and a prescribed one must leave the gap open around the centre.
+    fn check_cycle_tilt(&mut self, cycle: &LoadCycle, bearing: Option<&Bearing>) {
+        let what = match cycle.tilt {
+            CycleTilt::Aligned => return,
+            CycleTilt::Free => "moment",
+            CycleTilt::Prescribed(_) => "tilt",
+        };
+        if self.film_model().is_some_and(|model| !model.is_field()) {
+            let message = format!("the load table gives {what}s, the film model has no tilt");
+            let error = self.error_at("load_cycle.file", message).hinting(format!(
+                "use model = \"field\" or take the {what} columns out"
+            ));
+            self.errors.push(error);
+        }
+        let (CycleTilt::Prescribed(tilts), Some(bearing)) = (&cycle.tilt, bearing) else {
+            return;
+        };
+        let gap = |tilt: [f64; 2]| {
+            bearing.minimum_gap(&JournalState {
+                tilt,
+                ..JournalState::default()
+            })
+        };
+        let closed = cycle
+            .points
+            .iter()
+            .zip(tilts)
+            .find(|(_, tilt)| gap(**tilt) <= 0.0);
+        if let Some((point, tilt)) = closed {
+            let message = format!(
+                "the prescribed tilt closes the gap even of a centred journal: {}, {} mrad at crank \
+                 angle {} deg (gap {} um)",
+                round(1e3 * tilt[0]),
+                round(1e3 * tilt[1]),
+                round(point.crank_angle.to_degrees()),
+                round(1e6 * gap(*tilt))
+            );
+            let largest = round(2e3 * bearing.radial_clearance / bearing.width);
+            let error = self
+                .error_at("load_cycle.file", message)
+                .allowing(format!(
+                    "a tilt below {largest} mrad, the diametral clearance over the width"
+                ))
+                .hinting("reduce the tilt; its unit stands in the header of its column");
+            self.errors.push(error);
+        }
     }
 
     fn load_table(

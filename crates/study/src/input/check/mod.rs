@@ -40,6 +40,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
     checker.report_unused();
     let subject = checker.subject(directory);
     let film = checker.film_settings();
+    let rotor = checker.rotor();
     let limits = checker.limits();
     if !checker.errors.is_empty() {
         return Err(sorted(checker.errors));
@@ -53,6 +54,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         analysis: analysis(mode),
         subject,
         film,
+        rotor,
         limits,
         warnings: sorted(checker.warnings).0,
         file: file.to_owned(),
@@ -193,6 +195,14 @@ impl Checker<'_> {
         match self.value(path)? {
             Value::Pair(pair) => Some(pair),
             _ => None,
+        }
+    }
+
+    /// Quantities in SI; none where the key is left out.
+    fn list(&self, path: &str) -> Vec<f64> {
+        match self.value(path) {
+            Some(Value::List(list)) => list,
+            _ => Vec::new(),
         }
     }
 
