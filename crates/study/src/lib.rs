@@ -8,6 +8,7 @@ pub mod progress;
 pub mod report;
 pub mod results;
 pub mod run;
+pub mod sanity;
 pub mod templates;
 
 pub use input::{InputError, InputErrors, Study, load_study};

@@ -1,10 +1,12 @@
 //! Results as files: one writer per format, iterated from one list.
 
 mod csv;
+mod earlier;
 mod html;
 mod json;
 
 pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
+pub use earlier::check_directory;
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
 
@@ -46,6 +48,14 @@ pub enum OutputError {
         /// What the system said.
         source: io::Error,
     },
+    /// Something lies there that no run has written, or that this one reads: the user's to move.
+    #[error("{} is in the way: {reason}\n  = hint: name another directory with --out, or move the file", path.display())]
+    Taken {
+        /// The file.
+        path: PathBuf,
+        /// Why it stays.
+        reason: &'static str,
+    },
     /// The content of a file could not be built: a fault of this program.
     #[error("cannot build {file}: {reason}")]
     Content {
@@ -77,7 +87,8 @@ pub fn prepare_directory(directory: &Path) -> Result<(), OutputError> {
 }
 
 /// Writes every format these results have into `directory`, which is created if missing, and
-/// returns the files in the order of writing. Other files in the directory are left alone.
+/// returns the files in the order of writing. Files that an earlier run left and these results have
+/// no content for are removed; all others are left alone.
 ///
 /// # Errors
 /// [`OutputError`] at the first file that fails; files written before stay.
@@ -87,12 +98,19 @@ pub fn write_all(results: &Results, directory: &Path) -> Result<Vec<PathBuf>, Ou
         path: directory.to_path_buf(),
         source,
     })?;
+    let is_earlier_run = earlier::holds_results(directory);
     let mut files = Vec::new();
     for writer in WRITERS {
+        let path = directory.join(writer.file_name());
         if let Some(content) = writer.content(results)? {
-            let path = directory.join(writer.file_name());
             replace_file(&path, &content)?;
             files.push(path);
+        } else if is_earlier_run && path.exists() {
+            fs::remove_file(&path).map_err(|source| OutputError::Disk {
+                action: "remove what an earlier run left,",
+                path,
+                source,
+            })?;
         }
     }
     Ok(files)

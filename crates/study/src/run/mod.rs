@@ -7,9 +7,10 @@ mod steady;
 use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
-use crate::output::{OutputError, prepare_directory, write_all};
+use crate::output::{OutputError, check_directory, prepare_directory, write_all};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, DimensionlessResults, Header, Results};
+use crate::sanity;
 use cycle::solve_cycle;
 use inputs::input_rows;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
@@ -57,6 +58,7 @@ pub fn run(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
     // Better told before a long run than after it.
+    check_directory(directory, &study.files)?;
     prepare_directory(directory)?;
     let results = solve(study, progress)?;
     let files = write_all(&results, directory)?;
@@ -92,6 +94,8 @@ pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Resul
         })
         .collect();
     results.check_limits(&limits);
+    let warnings = sanity::warnings(&results, study.bearing_case());
+    results.header.messages.extend(warnings);
     Ok(results)
 }
 
