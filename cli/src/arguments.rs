@@ -28,7 +28,7 @@ pub enum Command {
     },
     /// Write a study to start from
     New {
-        /// Which one: big-end, main-bearing, one-axis-cycle, film, dimensionless
+        /// Which one: big-end, main-bearing, coefficients, one-axis-cycle, film, dimensionless
         template: String,
         /// Where to write it; made if it is not there
         directory: PathBuf,

@@ -97,6 +97,9 @@ pub fn new(name: &str, directory: &Path) -> Exit {
         for template in TEMPLATES {
             eprintln!("    {:<16}{}", template.name, template.meaning);
         }
+        if let Some(meant) = templates::nearest(name) {
+            eprintln!("  = hint: did you mean `{meant}`?");
+        }
         return Exit::Refused;
     };
     if let Err(error) = fs::create_dir_all(directory) {
@@ -149,6 +152,8 @@ pub fn explain(key: Option<&str>) -> Exit {
             eprintln!("error: unknown key `{key}`");
             if let Some(nearest) = nearest {
                 eprintln!("  = hint: did you mean `{nearest}`?");
+            } else {
+                eprintln!("  = hint: `sommerfeld explain` lists all keys");
             }
             Exit::Refused
         }

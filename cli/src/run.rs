@@ -4,6 +4,7 @@ use crate::commands;
 use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
+use sommerfeld_study::output::OutputError;
 use sommerfeld_study::results::status_name;
 use sommerfeld_study::{Outcome, RunError, RunOptions, RunSummary};
 use std::path::{Path, PathBuf};
@@ -64,7 +65,10 @@ pub fn run(arguments: &RunArguments) -> Exit {
         }
         Err(RunError::Output(error)) => {
             eprintln!("error: {error}");
-            Exit::MachineFailed
+            match error {
+                OutputError::Taken { .. } => Exit::Refused,
+                _ => Exit::MachineFailed,
+            }
         }
     }
 }

@@ -90,6 +90,87 @@ fn no_place_for_results_is_told_before_the_run() {
     }
 }
 
+/// Results are replaced as a whole; what no run has written is not touched.
+#[test]
+fn a_second_run_replaces_the_results_and_nothing_else() {
+    let grid = "grid = [32, 8]\ncavitation = \"reynolds\"\n";
+    let directory = tempfile::tempdir().unwrap();
+    let place = |name: &str| directory.path().join(name);
+    let run = |name: &str| {
+        let mut command = sommerfeld();
+        command.arg("run").arg(place(name)).arg("--out");
+        let output = command.arg(place("results")).output().unwrap();
+        let err = String::from_utf8(output.stderr).unwrap();
+        (output.status.code().unwrap(), err)
+    };
+    fs::write(place("loads.csv"), LOADS).unwrap();
+    fs::write(place("steady.toml"), study("equilibrium", grid, STEADY)).unwrap();
+    let model = "model = \"short-bearing\"\n";
+    fs::write(place("cycle.toml"), study("load-cycle", model, CYCLE)).unwrap();
+    assert_eq!(run("cycle.toml").0, 0);
+    fs::write(place("results/notes.txt"), "mine").unwrap();
+    assert!(place("results/cycle.csv").exists());
+    assert_eq!(run("steady.toml").0, 0);
+    assert_eq!(
+        common::summary(&place("results"))["analysis"],
+        "equilibrium"
+    );
+    assert!(!place("results/cycle.csv").exists(), "of the other run");
+    assert!(place("results/film.csv").exists());
+    assert!(place("results/notes.txt").exists());
+
+    // Tables that are not of a run, and a summary of another program.
+    for (name, content) in [("film.csv", "mine"), ("summary.json", "{}")] {
+        fs::remove_dir_all(place("results")).unwrap();
+        fs::create_dir(place("results")).unwrap();
+        fs::write(place("results").join(name), content).unwrap();
+        let (code, err) = run("steady.toml");
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains(name) && err.contains("--out"), "{err}");
+        let kept = fs::read_to_string(place("results").join(name)).unwrap();
+        assert_eq!(kept, content);
+        assert_eq!(fs::read_dir(place("results")).unwrap().count(), 1);
+    }
+}
+
+/// A load table that has the name of a table of results is not overwritten by them.
+#[test]
+fn an_input_is_never_overwritten() {
+    let directory = tempfile::tempdir().unwrap();
+    let place = |name: &str| directory.path().join(name);
+    let duty = CYCLE.replace("loads.csv", "cycle.csv");
+    fs::write(place("cycle.csv"), LOADS).unwrap();
+    let text = study("load-cycle", "model = \"short-bearing\"\n", &duty);
+    fs::write(place("study.toml"), text).unwrap();
+    let mut command = sommerfeld();
+    command.arg("run").arg(place("study.toml")).arg("--out");
+    let output = command.arg(directory.path()).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(err.contains("it is an input of this study"), "{err}");
+    assert_eq!(fs::read_to_string(place("cycle.csv")).unwrap(), LOADS);
+}
+
+/// A load beyond any bearing converges, and says in every place that its numbers mean nothing.
+#[test]
+fn a_result_beyond_the_physics_is_called_so() {
+    let film = "cavitation = \"reynolds\"\n";
+    let ran = run_text(
+        &study("equilibrium", film, &STEADY.replace("10 kN", "10 MN")),
+        LOADS,
+    );
+    assert_eq!(ran.code, Some(0), "{}{}", ran.out, ran.err);
+    for text in [
+        &ran.out,
+        &ran.summary()["messages"].to_string(),
+        &ran.report(),
+    ] {
+        for part in ["is below 0.1 um", "is above 1 GPa"] {
+            assert!(text.contains(part), "{part} in {text:.3000}");
+        }
+    }
+}
+
 /// Ctrl-C leaves a directory that can be read, and says that the run is not finished.
 #[cfg(unix)]
 #[test]

@@ -10,6 +10,7 @@ pub mod regime;
 pub mod report;
 pub mod results;
 pub mod run;
+pub mod sanity;
 pub mod spool;
 pub mod templates;
 pub mod verify;

@@ -275,7 +275,7 @@ impl Results {
     }
 
     /// The result that a limit of this quantity judges, SI.
-    fn limited_value(&self, quantity: Quantity) -> Option<f64> {
+    pub(crate) fn limited_value(&self, quantity: Quantity) -> Option<f64> {
         match &self.body {
             Body::Steady(steady) => match quantity {
                 Quantity::MinimumFilmThickness => Some(steady.summary.minimum_film_thickness.value),

@@ -37,6 +37,38 @@ fn piece() -> impl Strategy<Value = String> {
     ]
 }
 
+/// Pieces of which a table is made, and some of which it is not.
+fn table_piece() -> impl Strategy<Value = String> {
+    let words = [
+        "crank_angle[deg],load_x[N],load_y[N]\n",
+        "0,1000,0\n",
+        "360,2,3\r\n",
+        "719,-1e3,5\n",
+        "crank_angle[rad]",
+        ",load_x[MN]",
+        ",moment_x[N.m]",
+        "[",
+        "]",
+        ",",
+        ";",
+        "\t",
+        "\n",
+        "#",
+        "\"",
+        "1e400",
+        "NaN",
+        "-0",
+        "0,5",
+        "\u{2212}1",
+        "\u{feff}",
+        "\u{b0}",
+    ];
+    prop_oneof![
+        4 => prop::sample::select(words.to_vec()).prop_map(str::to_owned),
+        1 => "[0-9.,e-]{0,8}",
+    ]
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
@@ -80,6 +112,56 @@ proptest! {
         let text: String = text.into_iter().collect();
         if let Err(errors) = read_load_table("loads.csv", &text, &SETTINGS) {
             prop_assert!(errors.iter().all(|error| !error.to_string().is_empty()));
+        }
+    }
+
+    /// Numbers go through a table unchanged, whatever the order of its columns, its line ends,
+    /// blanks, quotes and comments.
+    #[test]
+    fn a_table_comes_back(
+        rows in prop::collection::vec((0.01f64..10.0, -1e7f64..1e7, -1e7f64..1e7), 2..40),
+        order in prop::sample::select(vec![[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]]),
+        (is_windows, is_quoted, is_marked) in any::<(bool, bool, bool)>(),
+    ) {
+        // Steps of the angle, shortened to stay within one period.
+        let total: f64 = rows.iter().map(|row| row.0).sum();
+        let mut angle = -1.0;
+        let mut written = Vec::new();
+        for (step, x, y) in &rows {
+            written.push([angle, *x, *y]);
+            angle += 10.0 * step / total;
+        }
+        let end = if is_windows { "\r\n" } else { "\n" };
+        let line = |cells: [String; 3]| {
+            let cell = |index: usize| match is_quoted {
+                true => format!("\"{}\" ", cells[index]),
+                false => cells[index].clone(),
+            };
+            order.map(cell).join(",") + end
+        };
+        let mut text = if is_marked { "\u{feff}# loads\r\n" } else { "" }.to_owned();
+        text += &line(["crank_angle[rad]", "load_x[N]", "load_y[N]"].map(str::to_owned));
+        for row in &written {
+            text += &line(row.map(|number| number.to_string()));
+            text += end;
+        }
+        let table = read_load_table("loads.csv", &text, &SETTINGS);
+        let points = table.map(|table| table.cycle.points).unwrap_or_default();
+        let read: Vec<[f64; 3]> = points
+            .iter()
+            .map(|point| [point.crank_angle, point.load[0], point.load[1]])
+            .collect();
+        prop_assert_eq!(read, written);
+    }
+
+    #[test]
+    fn tables_of_pieces(pieces in prop::collection::vec(table_piece(), 0..60)) {
+        let text = pieces.concat();
+        match read_load_table("loads.csv", &text, &SETTINGS) {
+            Ok(table) => prop_assert!(
+                table.cycle.points.iter().all(|point| point.load.iter().all(|load| load.is_finite()))
+            ),
+            Err(errors) => prop_assert!((1..=10).contains(&errors.len())),
         }
     }
 

@@ -192,7 +192,7 @@ impl<const N: usize> CsvTable<'_, N> {
                     .hinting(format!("sort the rows by {name}, each value once"))
             });
         }
-        found.into_errors(self.file)
+        found.into_errors()
     }
 }
 
@@ -212,18 +212,20 @@ impl Found {
         }
     }
 
-    fn into_errors(mut self, file: &str) -> Vec<InputError> {
-        if let (Some(line), true) = (self.last_line(), self.more > 0) {
-            let lines = if self.more == 1 { "line" } else { "lines" };
-            let message = format!("{} more {lines} below are refused, too", self.more);
-            self.shown
-                .push(InputError::new(file, message).at(Place::in_line(line, "", 0..0)));
+    /// The last one shown tells how many more there are.
+    fn into_errors(mut self) -> Vec<InputError> {
+        if let (Some(last), true) = (self.shown.last_mut(), self.more > 0) {
+            let (lines, are) = match self.more {
+                1 => ("line", "is"),
+                _ => ("lines", "are"),
+            };
+            let more = format!("{} more {lines} below {are} refused, too", self.more);
+            last.hint = Some(match last.hint.take() {
+                Some(hint) => format!("{hint}; {more}"),
+                None => more,
+            });
         }
         self.shown
-    }
-
-    fn last_line(&self) -> Option<usize> {
-        Some(self.shown.last()?.place.as_ref()?.line)
     }
 }
 
@@ -403,7 +405,7 @@ fn read_rows<'t, const N: usize>(
     if found.shown.is_empty() {
         Ok(rows)
     } else {
-        Err(found.into_errors(file))
+        Err(found.into_errors())
     }
 }
 
@@ -529,9 +531,11 @@ mod tests {
 
     #[test]
     fn bad_rows_are_shown_up_to_a_few_and_counted() {
-        let found = messages(&("angle[deg]\n".to_owned() + &"x\n".repeat(1000)));
-        assert_eq!(found.len(), ERRORS_SHOWN + 1);
-        assert_eq!(found[ERRORS_SHOWN], "995 more lines below are refused, too");
+        let text = "angle[deg]\n".to_owned() + &"x\n".repeat(1000);
+        let errors = read_table("t.csv", &text, &LAYOUT).err().unwrap();
+        assert_eq!(errors.len(), ERRORS_SHOWN);
+        let last = errors[ERRORS_SHOWN - 1].hint.as_deref();
+        assert_eq!(last, Some("995 more lines below are refused, too"));
     }
 
     #[test]

@@ -10,8 +10,10 @@ use std::ops::Range;
 
 /// Longest piece of a line that is shown, in characters.
 const SNIPPET_LENGTH: usize = 120;
+/// Longest name of a file that is shown in full, in characters.
+const FILE_SHOWN: usize = 300;
 /// More messages than this are counted, not shown.
-const MESSAGES_SHOWN: usize = 40;
+const MESSAGES_SHOWN: usize = 12;
 
 /// A place in a file and the line of text around it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -159,6 +161,16 @@ impl InputError {
         self
     }
 
+    /// The file as messages name it: of a path that fills the page, its end.
+    fn file_shown(&self) -> String {
+        let length = self.file.chars().count();
+        if length <= FILE_SHOWN {
+            return self.file.clone();
+        }
+        let end: String = self.file.chars().skip(length - FILE_SHOWN).collect();
+        format!("...{end}")
+    }
+
     /// The message with the offending text underlined, as an error or a warning.
     #[must_use]
     pub fn render(&self, kind: MessageKind, colours: bool) -> String {
@@ -180,14 +192,14 @@ impl InputError {
                 let (head, notes) = text.split_once('\n').unwrap_or((&text, ""));
                 format!(
                     "{head}\n --> {}\n{}",
-                    self.file,
+                    self.file_shown(),
                     notes.trim_end_matches('\n')
                 )
                 .trim_end()
                 .to_owned()
                     + "\n"
             }
-            Err(_) => format!("error: {}: {}\n", self.file, self.message),
+            Err(_) => format!("error: {}: {}\n", self.file_shown(), self.message),
         }
     }
 
@@ -227,11 +239,11 @@ pub enum MessageKind {
 /// The renderer sees a file of one line with the number it has in the real one.
 impl<'a> Files<'a> for InputError {
     type FileId = ();
-    type Name = &'a str;
+    type Name = String;
     type Source = &'a str;
 
-    fn name(&'a self, (): ()) -> Result<&'a str, FilesError> {
-        Ok(&self.file)
+    fn name(&'a self, (): ()) -> Result<String, FilesError> {
+        Ok(self.file_shown())
     }
 
     fn source(&'a self, (): ()) -> Result<&'a str, FilesError> {
@@ -283,16 +295,25 @@ impl InputErrors {
 /// Messages one after the other, a blank line between them.
 #[must_use]
 pub fn render_all(messages: &[InputError], kind: MessageKind, colours: bool) -> String {
-    let mut shown: Vec<String> = messages
-        .iter()
-        .take(MESSAGES_SHOWN)
-        .map(|message| message.render(kind, colours))
-        .collect();
+    let mut shown = Vec::new();
+    let mut before: Option<&String> = None;
+    for message in messages.iter().take(MESSAGES_SHOWN) {
+        let allowed = message.allowed.as_ref();
+        // What was just said is not said again.
+        if allowed.is_some() && allowed == before {
+            let brief = InputError {
+                allowed: None,
+                ..message.clone()
+            };
+            shown.push(brief.render(kind, colours));
+        } else {
+            shown.push(message.render(kind, colours));
+        }
+        before = allowed;
+    }
     if messages.len() > MESSAGES_SHOWN {
-        shown.push(format!(
-            "... and {} more\n",
-            messages.len() - MESSAGES_SHOWN
-        ));
+        let more = messages.len() - MESSAGES_SHOWN;
+        shown.push(format!("... and at least {more} more\n"));
     }
     shown.join("\n")
 }

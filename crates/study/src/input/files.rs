@@ -36,10 +36,14 @@ pub fn study_from_text(file: &str, text: &str, directory: &Path) -> Result<Study
     check::study(file, text, directory)
 }
 
-/// Reads a text file of at most `cap` bytes.
+/// Reads a text file of at most `cap` bytes; of a longer one no more than that is ever held.
 pub(super) fn read_text(path: &Path, cap: u64) -> Result<String, Box<InputError>> {
     let name = path.to_string_lossy();
     let refuse = |message: String| Box::new(InputError::new(&name, message));
+    let too_large = |message: String| {
+        let error = InputError::new(&name, message).allowing(format!("at most {} MB", cap >> 20));
+        Box::new(error.hinting("is this the right file?"))
+    };
     let metadata = std::fs::metadata(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => refuse("there is no such file".into()),
         ErrorKind::PermissionDenied => refuse("the file may not be read: permission denied".into()),
@@ -48,25 +52,25 @@ pub(super) fn read_text(path: &Path, cap: u64) -> Result<String, Box<InputError>
     if metadata.is_dir() {
         return Err(refuse("this is a directory, not a file".into()));
     }
-    // A pipe or device has no length: read up to the cap and see.
+    if metadata.len() > cap {
+        let size = metadata.len() >> 20;
+        return Err(too_large(format!("the file is too large: {size} MB")));
+    }
+    // A pipe or device has no length, and a file may grow: read up to the cap and see.
     let mut bytes = Vec::new();
     File::open(path)
         .and_then(|file| file.take(cap + 1).read_to_end(&mut bytes))
         .map_err(|error| refuse(format!("the file cannot be read: {error}")))?;
     if bytes.len() as u64 > cap {
-        return Err(InputError::new(&name, "the file is too large")
-            .allowing(format!("at most {} MB", cap >> 20))
-            .into());
+        return Err(too_large("the file is too large".into()));
     }
     decode(&name, bytes)
 }
 
 /// UTF-8 text without a byte order mark.
 fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Box<InputError>> {
-    if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-        return Err(InputError::new(name, "the file is UTF-16 text")
-            .hinting("save it as UTF-8")
-            .into());
+    if let Some((message, hint)) = foreign_format(&bytes) {
+        return Err(InputError::new(name, message).hinting(hint).into());
     }
     match String::from_utf8(bytes) {
         Ok(text) => Ok(match text.strip_prefix('\u{feff}') {
@@ -84,4 +88,25 @@ fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Box<InputError>> {
             )
         }
     }
+}
+
+/// What the bytes are, where they are not text of one byte a letter, and what to do.
+fn foreign_format(bytes: &[u8]) -> Option<(String, &'static str)> {
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Some((
+            "this is a ZIP archive, as spreadsheets (.xlsx, .ods) are".to_owned(),
+            "export the table as CSV in UTF-8",
+        ));
+    }
+    let has_mark = bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]);
+    // Without its mark, UTF-16 of Western text has every other byte zero.
+    let alternates = matches!(bytes, [0, a, 0, b, ..] | [a, 0, b, 0, ..] if *a != 0 && *b != 0);
+    if has_mark || alternates {
+        return Some(("the file is UTF-16 text".to_owned(), "save it as UTF-8"));
+    }
+    let zero = bytes.iter().position(|&byte| byte == 0)?;
+    Some((
+        format!("this is a binary file, no text: byte {zero} is zero"),
+        "is this the right file?",
+    ))
 }

@@ -11,6 +11,10 @@ use toml::de::{DeTable, DeValue};
 
 /// More errors than this in one file are not looked for: placing each takes a walk over the file.
 pub(super) const MOST_ERRORS: usize = 100;
+/// Behind the first few errors of syntax the parser guesses.
+const SYNTAX_ERRORS: usize = 5;
+/// The schema that is read here.
+const SCHEMA: i64 = 1;
 
 /// A value with its place in the file.
 #[derive(Debug, Clone)]
@@ -46,7 +50,11 @@ impl<'t> Reading<'t> {
             errors: Vec::new(),
         };
         let (document, syntax) = DeTable::parse_recoverable(text);
-        for error in syntax.iter().take(MOST_ERRORS) {
+        if let Some(error) = reading.newer_schema(document.get_ref()) {
+            reading.errors.push(error);
+            return reading;
+        }
+        for error in syntax.iter().take(SYNTAX_ERRORS) {
             let error = reading.syntax_error(error);
             reading.errors.push(error);
         }
@@ -72,6 +80,31 @@ impl<'t> Reading<'t> {
         self.entries.contains_key(path)
     }
 
+    /// A file of a later schema: what this one would say about its keys means nothing.
+    fn newer_schema(&self, document: &DeTable<'_>) -> Option<InputError> {
+        let value = document.get("schema")?;
+        let digits = value.get_ref().as_integer()?;
+        // Too long for a whole number of the machine is newer, too.
+        let is_newer = digits.radix() == 10
+            && !digits.as_str().starts_with('-')
+            && digits
+                .as_str()
+                .parse::<i64>()
+                .map_or(true, |version| version > SCHEMA);
+        is_newer.then(|| {
+            let shown: String = digits.as_str().chars().take(20).collect();
+            let message = format!("the study is written for schema {shown}, which is newer");
+            self.error(&value.span(), message)
+                .of_key("schema")
+                .allowing(format!("schema = {SCHEMA}"))
+                .hinting(format!(
+                    "this is version {} of the program: use a newer one, or write the study for \
+                     schema {SCHEMA} (`sommerfeld explain` lists its keys)",
+                    env!("CARGO_PKG_VERSION")
+                ))
+        })
+    }
+
     fn syntax_error(&self, error: &toml::de::Error) -> InputError {
         let span = error.span().unwrap_or(0..0);
         let place = Place::of_span(self.text, span.clone());
@@ -86,8 +119,16 @@ impl<'t> Reading<'t> {
             message => message,
         };
         let refused = InputError::new(self.file, format!("not valid TOML: {message}")).at(place);
-        if has_decimal_comma(self.line_of(&span)) {
+        let line = self.line_of(&span);
+        if has_decimal_comma(line) {
             return refused.hinting("decimals take a point: 0.5, not 0,5");
+        }
+        if line.contains('\u{2212}') {
+            return refused
+                .hinting("the minus sign is not the one of the keyboard: write a plain -");
+        }
+        if line.contains(['\u{201c}', '\u{201d}', '\u{201e}', '\u{ab}', '\u{bb}']) {
+            return refused.hinting("text and quantities stand in straight quotes: \"72 mm\"");
         }
         refused.hinting("text and quantities stand in quotes: diameter = \"72 mm\"")
     }
@@ -182,6 +223,7 @@ impl<'t> Reading<'t> {
             (_, plain) => match plain_value(key, plain) {
                 Ok(read) => Some(read),
                 Err(refusal) => {
+                    let span = refusal.part.clone().unwrap_or(span);
                     let error = refusal.into_error(self.error(&span, ""), key);
                     self.errors.push(error);
                     None

@@ -38,6 +38,20 @@ impl Key {
             .map_or("", |(section, _)| section)
     }
 
+    /// The first of the typical values, as it would be written in the file.
+    #[must_use]
+    pub fn example(&self) -> Option<&'static str> {
+        let quoted = self
+            .typical
+            .strip_prefix('"')
+            .and_then(|rest| rest.find('"'));
+        match quoted {
+            Some(end) => self.typical.get(..end + 2),
+            None => (self.typical.starts_with(['[', '{']) || self.typical.parse::<f64>().is_ok())
+                .then_some(self.typical),
+        }
+    }
+
     /// The release reads it.
     #[must_use]
     pub fn is_built(&self) -> bool {
@@ -195,7 +209,7 @@ impl fmt::Display for Range {
             (true, true) => write!(f, "{low} {}{unit}, at most {}{unit}", self.low, self.high),
             (true, false) => write!(f, "{low} {}{unit}", self.low),
             (false, true) => write!(f, "at most {}{unit}", self.high),
-            (false, false) => write!(f, "any"),
+            (false, false) => write!(f, "any number"),
         }
     }
 }

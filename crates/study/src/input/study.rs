@@ -5,6 +5,7 @@ use sommerfeld_bearing::LoadCycle;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
 use sommerfeld_oil::Lubricant;
+use std::path::PathBuf;
 
 /// A study file that was read and checked.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +26,8 @@ pub struct Study {
     pub warnings: Vec<InputError>,
     /// The study file, as the user named it.
     pub file: String,
+    /// The study file and the tables it names: what a run must not write over.
+    pub files: Vec<PathBuf>,
     /// Its text, without a byte order mark.
     pub text: String,
     /// Identifies study text and load file: equal hashes are the same calculation.

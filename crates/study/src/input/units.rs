@@ -45,6 +45,9 @@ pub enum Dimension {
 /// One unit: name, factor to SI and the SI value of its zero.
 type Unit = (&'static str, f64, f64);
 
+/// Longest piece of a text that is shown, characters.
+const TEXT_SHOWN: usize = 40;
+
 const DEGREE: f64 = PI / 180.0;
 const REVOLUTION_PER_MINUTE: f64 = PI / 30.0;
 /// 0 degC in K.
@@ -155,6 +158,49 @@ impl Dimension {
         }
     }
 
+    /// Its name with the article before it.
+    #[must_use]
+    pub fn with_article(self) -> String {
+        let name = self.name();
+        let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) {
+            "an"
+        } else {
+            "a"
+        };
+        format!("{article} {name}")
+    }
+
+    /// The unit that was most likely meant by one that is not known: the same letters in another
+    /// case, or a habit of the workshop.
+    #[must_use]
+    pub fn meant_unit(self, unit: &str) -> Option<&'static str> {
+        const HABITS: &[(&str, &str)] = &[
+            ("c", "degC"),
+            ("celsius", "degC"),
+            ("degrees", "deg"),
+            ("micron", "um"),
+            ("microns", "um"),
+            ("micrometer", "um"),
+            ("mu", "um"),
+            ("u/min", "rpm"),
+            ("min-1", "rpm"),
+            ("rad/sec", "rad/s"),
+            ("n/m2", "Pa"),
+            ("n.s/m2", "Pa.s"),
+            ("ns/m2", "Pa.s"),
+        ];
+        let letters = normalised(unit).to_lowercase();
+        let known = |name: &str| self.table().iter().find(|known| known.0 == name);
+        self.table()
+            .iter()
+            .find(|known| known.0.to_lowercase() == letters)
+            .or_else(|| {
+                let habit = HABITS.iter().find(|habit| habit.0 == letters)?;
+                known(habit.1)
+            })
+            .map(|known| known.0)
+    }
+
     /// Names of its units, the usual one first.
     #[must_use]
     pub fn units(self) -> Vec<&'static str> {
@@ -179,6 +225,10 @@ pub enum QuantityError {
     NoNumber,
     /// A comma where the decimal point is due; holds the text with a point.
     DecimalComma(String),
+    /// Digits in groups; holds the text without the gaps.
+    GroupedDigits(String),
+    /// A minus sign that is not the one of the keyboard; holds the text with that.
+    ForeignMinus(String),
     /// Infinite, or not a number.
     NotFinite,
     /// A bare number.
@@ -194,12 +244,19 @@ impl fmt::Display for QuantityError {
         match self {
             Self::NoNumber => write!(f, "does not start with a number"),
             Self::DecimalComma(_) => write!(f, "is written with a decimal comma"),
+            Self::GroupedDigits(_) => write!(f, "has its digits in groups"),
+            Self::ForeignMinus(_) => {
+                write!(f, "has a minus sign that is not the one of the keyboard")
+            }
             Self::NotFinite => write!(f, "is not a finite number"),
             Self::MissingUnit => write!(f, "has no unit"),
             Self::WrongDimension(unit, dimension) => {
-                write!(f, "has the unit `{unit}` of a {}", dimension.name())
+                write!(f, "has the unit `{unit}` of {}", dimension.with_article())
             }
-            Self::UnknownUnit(unit) => write!(f, "has the unknown unit `{unit}`"),
+            Self::UnknownUnit(unit) => {
+                let shown: String = unit.chars().take(TEXT_SHOWN).collect();
+                write!(f, "has the unknown unit `{}`", shown.escape_debug())
+            }
         }
     }
 }
@@ -212,13 +269,21 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
     let text = text.trim();
     let (number, unit) = text.split_at(number_length(text));
     if number.is_empty() {
-        return Err(match text.to_ascii_lowercase().as_str() {
-            "nan" | "inf" | "-inf" | "+inf" => QuantityError::NotFinite,
+        if let Some(plain) = with_ascii_minus(text) {
+            return Err(QuantityError::ForeignMinus(
+                plain.chars().take(TEXT_SHOWN).collect(),
+            ));
+        }
+        let first = text.split_whitespace().next().unwrap_or_default();
+        return Err(match first.trim_start_matches(['-', '+']) {
+            word if ["nan", "inf", "infinity"].contains(&word.to_ascii_lowercase().as_str()) => {
+                QuantityError::NotFinite
+            }
             _ => QuantityError::NoNumber,
         });
     }
-    if unit.starts_with(',') && unit[1..].starts_with(|c: char| c.is_ascii_digit()) {
-        return Err(QuantityError::DecimalComma(text.replacen(',', ".", 1)));
+    if let Some(error) = broken_number(number, unit) {
+        return Err(error);
     }
     let number: f64 = number.parse().map_err(|_| QuantityError::NoNumber)?;
     if !number.is_finite() {
@@ -233,6 +298,41 @@ pub fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
         Some(_) => Err(QuantityError::NotFinite),
         None => Err(foreign_unit(unit)),
     }
+}
+
+/// Digits go on behind the number: a decimal comma, or groups of thousands.
+fn broken_number(number: &str, rest: &str) -> Option<QuantityError> {
+    let is_gap = |c: char| ",._'\u{2019}".contains(c) || c.is_whitespace();
+    let after_gap = rest.strip_prefix(is_gap)?;
+    // `1/s` and `1/min` are units.
+    if !after_gap.starts_with(|c: char| c.is_ascii_digit()) || after_gap.starts_with("1/") {
+        return None;
+    }
+    let end = rest.find(|c: char| !is_gap(c) && !c.is_ascii_digit());
+    let (digits, unit) = rest.split_at(end.unwrap_or(rest.len()));
+    let written = format!("{number}{}", digits.trim_end());
+    if written.len() > TEXT_SHOWN {
+        return None;
+    }
+    let gaps: Vec<char> = written.chars().filter(|&c| is_gap(c)).collect();
+    // Of several separators the last is the decimal point, if it stands there once.
+    let last = gaps.last().copied()?;
+    let is_decimal = matches!(last, ',' | '.')
+        && gaps.iter().filter(|&&gap| gap == last).count() == 1
+        && (gaps.len() > 1 || last == ',');
+    let plain = written.chars().filter_map(|c| match c {
+        c if c == last && is_decimal => Some('.'),
+        c if is_gap(c) => None,
+        c => Some(c),
+    });
+    let unit: String = unit.chars().take(TEXT_SHOWN).collect();
+    let plain = format!("{} {unit}", plain.collect::<String>());
+    let plain = plain.trim_end().to_owned();
+    Some(if gaps.len() == 1 && is_decimal {
+        QuantityError::DecimalComma(plain)
+    } else {
+        QuantityError::GroupedDigits(plain)
+    })
 }
 
 /// Tells a unit of another dimension from one that is not known at all.
@@ -290,7 +390,7 @@ fn normalised(unit: &str) -> String {
             '\u{b3}' => out.push('3'),
             '\u{b0}' => out.push_str("deg"),
             '^' => {}
-            '*' | '\u{b7}' | '\u{22c5}' | ' ' => {
+            c if matches!(c, '*' | '\u{b7}' | '\u{22c5}') || c.is_whitespace() => {
                 if !out.ends_with(['.', '/']) {
                     out.push('.');
                 }
@@ -357,6 +457,17 @@ mod tests {
             QuantityError::DecimalComma("0.5 mm".into())
         );
         assert_eq!(error("nan"), QuantityError::NotFinite);
+        assert_eq!(error("-Inf mm"), QuantityError::NotFinite);
+        let grouped = |text: &str| QuantityError::GroupedDigits(text.into());
+        assert_eq!(error("1 000 mm"), grouped("1000 mm"));
+        assert_eq!(error("1.000,5 mm"), grouped("1000.5 mm"));
+        assert_eq!(error("1,000.5 mm"), grouped("1000.5 mm"));
+        assert_eq!(error("1.000.000 mm"), grouped("1000000 mm"));
+        assert_eq!(error("10'000 mm"), grouped("10000 mm"));
+        let minus = QuantityError::ForeignMinus("-5 mm".into());
+        assert_eq!(error("\u{2212}5 mm"), minus);
+        // A unit that begins with a digit is no group of digits.
+        assert_eq!(parse("8 1/s", Dimension::Rate), Ok(8.0));
         assert_eq!(error("1e999 mm"), QuantityError::NotFinite);
         assert_eq!(
             error("5 bar"),

@@ -6,6 +6,9 @@ use super::units::{self, Dimension, QuantityError};
 use toml::Spanned;
 use toml::de::DeValue;
 
+/// Longest number that is repeated in a hint, characters.
+const NUMBER_SHOWN: usize = 30;
+
 /// A value as read, SI.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Value {
@@ -61,6 +64,10 @@ pub(super) struct Refusal {
     hint: Option<String>,
     /// The message is about a planned value.
     is_planned: bool,
+    /// What the key means is the best hint.
+    is_out_of_range: bool,
+    /// Bytes of the part that is wrong, of a list.
+    pub(super) part: Option<std::ops::Range<usize>>,
 }
 
 impl Refusal {
@@ -70,6 +77,15 @@ impl Refusal {
             allowed: None,
             hint: None,
             is_planned: false,
+            is_out_of_range: false,
+            part: None,
+        }
+    }
+
+    fn out_of_range(range: Range) -> Self {
+        Self {
+            is_out_of_range: true,
+            ..Self::new("is out of range").allowing(range.to_string())
         }
     }
 
@@ -92,6 +108,9 @@ impl Refusal {
         }
         error.allowed = self.allowed;
         error.hint = self.hint;
+        if self.is_out_of_range && error.hint.is_none() {
+            error.hint = Some(key.meaning.to_owned());
+        }
         error
     }
 }
@@ -122,11 +141,23 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
         }
         (Kind::Grid, DeValue::Array(list)) => grid(list).map(Value::Grid),
         (Kind::Choice(built, planned), DeValue::String(text)) => choice(text, built, planned),
-        (kind, value) => Err(Refusal::new(format!(
-            "must be {}, not {}",
-            expected(&kind),
-            type_name(value)
-        ))),
+        (kind, value) => {
+            let refusal = Refusal::new(format!(
+                "must be {}, not {}",
+                expected(&kind),
+                type_name(value)
+            ));
+            Err(match (kind, key.example()) {
+                (Kind::Table, _) => refusal.hinting(format!(
+                    "write [{}] in a line of its own and its keys below",
+                    key.path
+                )),
+                (_, Some(example)) => {
+                    refusal.hinting(format!("for example {} = {example}", key.name()))
+                }
+                _ => refusal,
+            })
+        }
     }
 }
 
@@ -160,7 +191,7 @@ fn type_name(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "text",
         DeValue::Integer(_) => "a whole number",
-        DeValue::Float(_) => "a number",
+        DeValue::Float(_) => "a decimal number",
         DeValue::Boolean(_) => "true or false",
         DeValue::Datetime(_) => "a date",
         DeValue::Array(_) => "a list",
@@ -174,32 +205,38 @@ fn integer(value: &DeValue<'_>) -> Option<i64> {
 }
 
 fn whole_number(value: &DeValue<'_>, low: i64, high: i64) -> Result<i64, Refusal> {
-    match integer(value) {
-        Some(number) if (low..=high).contains(&number) => Ok(number),
-        Some(number) => {
-            Err(Refusal::new(format!("is {number}, out of range"))
-                .allowing(format!("{low} to {high}")))
-        }
-        None => Err(
-            Refusal::new(format!("must be a whole number, not {}", type_name(value)))
-                .allowing(format!("{low} to {high}")),
-        ),
-    }
+    let allowed = if low == high {
+        low.to_string()
+    } else {
+        format!("{low} to {high}")
+    };
+    let refusal = match (integer(value), value) {
+        (Some(number), _) if (low..=high).contains(&number) => return Ok(number),
+        (Some(_), _) | (None, DeValue::Integer(_)) => Refusal {
+            is_out_of_range: true,
+            ..Refusal::new("is out of range")
+        },
+        (None, _) => Refusal::new(format!("must be a whole number, not {}", type_name(value))),
+    };
+    Err(refusal.allowing(allowed))
 }
 
 fn bare_number(value: &DeValue<'_>, range: Range) -> Result<f64, Refusal> {
     let number = match value {
         DeValue::Float(float) => float.as_str().parse().ok(),
         #[allow(clippy::cast_precision_loss)] // no study needs 2^53
-        _ => integer(value).map(|number| number as f64),
+        _ => integer(value).map(|number| number as f64).or_else(|| {
+            let digits = value.as_integer()?;
+            (digits.radix() == 10).then(|| digits.as_str().parse().ok())?
+        }),
     };
     match number {
         Some(number) if !f64::is_finite(number) => {
             Err(Refusal::new("is not a finite number").allowing(range.to_string()))
         }
         Some(number) if range.contains(number, None) => Ok(number),
-        Some(_) => Err(Refusal::new("is out of range").allowing(range.to_string())),
-        None => Err(Refusal::new("is not a number that can be read")),
+        Some(_) => Err(Refusal::out_of_range(range)),
+        None => Err(Refusal::new("is not a number that can be read").allowing(range.to_string())),
     }
 }
 
@@ -207,7 +244,7 @@ fn bare_number(value: &DeValue<'_>, range: Range) -> Result<f64, Refusal> {
 pub(super) fn quantity(text: &str, dimension: Dimension, range: Range) -> Result<f64, Refusal> {
     match units::parse(text, dimension) {
         Ok(value) if range.contains(value, Some(dimension)) => Ok(value),
-        Ok(_) => Err(Refusal::new("is out of range").allowing(range.to_string())),
+        Ok(_) => Err(Refusal::out_of_range(range)),
         Err(error) => Err(quantity_refusal(&error, text, dimension)),
     }
 }
@@ -215,23 +252,41 @@ pub(super) fn quantity(text: &str, dimension: Dimension, range: Range) -> Result
 fn quantity_refusal(error: &QuantityError, text: &str, dimension: Dimension) -> Refusal {
     let units = dimension.units();
     let refusal = Refusal::new(error.to_string()).allowing(format!(
-        "a {} in {}",
-        dimension.name(),
+        "{} in {}",
+        dimension.with_article(),
         units.join(", ")
     ));
     match error {
-        QuantityError::DecimalComma(with_point) => {
-            refusal.hinting(format!("write \"{with_point}\": decimals take a point"))
+        QuantityError::DecimalComma(plain) if is_perhaps_grouped(plain) => {
+            let grouped = plain.replacen('.', "", 1);
+            refusal.hinting(format!(
+                "write \"{plain}\" or \"{grouped}\": decimals take a point, thousands nothing"
+            ))
         }
+        QuantityError::DecimalComma(plain) => {
+            refusal.hinting(format!("write \"{plain}\": decimals take a point"))
+        }
+        QuantityError::GroupedDigits(plain) => {
+            refusal.hinting(format!("write \"{plain}\": thousands are not set apart"))
+        }
+        QuantityError::ForeignMinus(plain) => refusal.hinting(format!("write \"{plain}\"")),
+        QuantityError::UnknownUnit(unit) => match dimension.meant_unit(unit) {
+            Some(meant) => refusal.hinting(format!("did you mean `{meant}`?")),
+            None => refusal,
+        },
         QuantityError::MissingUnit => {
             let unit = units.first().copied().unwrap_or_default();
-            refusal.hinting(format!(
-                "write \"{} {unit}\" if that is the unit",
-                text.trim()
-            ))
+            let number: String = text.trim().chars().take(NUMBER_SHOWN).collect();
+            refusal.hinting(format!("write \"{number} {unit}\" if that is the unit"))
         }
         _ => refusal,
     }
+}
+
+/// Three digits behind the point: what stood there may have set thousands apart.
+fn is_perhaps_grouped(plain: &str) -> bool {
+    let behind = plain.split_once('.').map_or("", |(_, behind)| behind);
+    behind.bytes().take_while(u8::is_ascii_digit).count() == 3 && !plain.starts_with("0.")
 }
 
 fn bare_quantity(value: &DeValue<'_>, dimension: Dimension) -> Refusal {
@@ -250,13 +305,21 @@ fn pair(list: &[Spanned<DeValue<'_>>], dimension: Dimension) -> Result<[f64; 2],
             expected(&Kind::Pair(dimension))
         )));
     };
-    let read = |value: &Spanned<DeValue<'_>>| match value.get_ref() {
-        DeValue::String(text) => quantity(text, dimension, Range::ANY),
-        other @ (DeValue::Integer(_) | DeValue::Float(_)) => Err(bare_quantity(other, dimension)),
-        _ => Err(Refusal::new(format!(
-            "must be {}",
-            expected(&Kind::Pair(dimension))
-        ))),
+    let read = |value: &Spanned<DeValue<'_>>| {
+        let read = match value.get_ref() {
+            DeValue::String(text) => quantity(text, dimension, Range::ANY),
+            other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
+                Err(bare_quantity(other, dimension))
+            }
+            _ => Err(Refusal::new(format!(
+                "must be {}",
+                expected(&Kind::Pair(dimension))
+            ))),
+        };
+        read.map_err(|refusal| Refusal {
+            part: Some(value.span()),
+            ..refusal
+        })
     };
     Ok([read(x)?, read(y)?])
 }
@@ -303,7 +366,10 @@ fn grid(list: &[Spanned<DeValue<'_>>]) -> Result<[usize; 2], Refusal> {
         whole_number(value.get_ref(), low, high)
             .ok()
             .and_then(|number| usize::try_from(number).ok())
-            .ok_or_else(refusal)
+            .ok_or_else(|| Refusal {
+                part: Some(value.span()),
+                ..refusal()
+            })
     };
     Ok([
         cells(around, around_low, around_high)?,

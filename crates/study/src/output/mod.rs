@@ -1,6 +1,7 @@
 //! Results as files: one writer per format, iterated from one list.
 
 mod csv;
+mod earlier;
 mod hdf5;
 mod html;
 mod json;
@@ -8,6 +9,7 @@ mod stability;
 mod vtk;
 
 pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
+pub use earlier::check_directory;
 pub use hdf5::Hdf5Results;
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
@@ -95,6 +97,14 @@ pub enum OutputError {
         /// What the system said.
         source: io::Error,
     },
+    /// Something lies there that no run has written, or that this one reads: the user's to move.
+    #[error("{} is in the way: {reason}\n  = hint: name another directory with --out, or move the file", path.display())]
+    Taken {
+        /// The file.
+        path: PathBuf,
+        /// Why it stays.
+        reason: &'static str,
+    },
     /// The content of a file could not be built: a fault of this program.
     #[error("cannot build {file}: {reason}")]
     Content {
@@ -135,7 +145,8 @@ pub fn write_all(results: &Results, directory: &Path) -> Result<Vec<PathBuf>, Ou
 }
 
 /// Writes every format these results have into `directory`, which is created if missing, and
-/// returns the files in the order of writing. Other files in the directory are left alone.
+/// returns the files in the order of writing. Files that an earlier run left and these results have
+/// no content for are removed; all others are left alone.
 ///
 /// # Errors
 /// [`OutputError`] at the first file that fails; files written before stay.
@@ -149,9 +160,19 @@ pub fn write_stored(
         path: directory.to_path_buf(),
         source,
     })?;
+    let is_earlier_run = earlier::holds_results(directory);
     let mut files = Vec::new();
     for writer in WRITERS {
-        files.extend(writer.write(results, stored, directory)?);
+        let written = writer.write(results, stored, directory)?;
+        let path = directory.join(writer.file_name());
+        if written.is_empty() && is_earlier_run && path.exists() {
+            fs::remove_file(&path).map_err(|source| OutputError::Disk {
+                action: "remove what an earlier run left,",
+                path,
+                source,
+            })?;
+        }
+        files.extend(written);
     }
     Ok(files)
 }

@@ -11,9 +11,10 @@ use crate::input::{
 };
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
-use crate::output::{OutputError, StoredFields, prepare_directory, write_stored};
+use crate::output::{OutputError, StoredFields, check_directory, prepare_directory, write_stored};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, DimensionlessResults, Header, Results};
+use crate::sanity;
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use inputs::input_rows;
@@ -84,6 +85,7 @@ pub fn run_with(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
     // Better told before a long run than after it.
+    check_directory(directory, &study.files)?;
     prepare_directory(directory)?;
     let failed = |source| OutputError::Disk {
         action: "store fields in the directory",
@@ -174,6 +176,8 @@ fn solve_into(
     results.check_limits(&limits(study));
     let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
     results.header.messages.extend(beyond_laminar);
+    let warnings = sanity::warnings(&results, study.bearing_case());
+    results.header.messages.extend(warnings);
     Ok(results)
 }
 

@@ -1,5 +1,7 @@
 //! Studies to start from: `sommerfeld new TEMPLATE DIR` writes one of these.
 
+use crate::input::schema::nearest_word;
+
 /// A study to start from, with the files it names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Template {
@@ -28,6 +30,12 @@ pub const TEMPLATES: &[Template] = &[
         files: &[],
     },
     Template {
+        name: "coefficients",
+        meaning: "stiffness and damping of a rotor bearing with two axial grooves",
+        study: include_str!("coefficients.toml"),
+        files: &[],
+    },
+    Template {
         name: "one-axis-cycle",
         meaning: "journal orbit under a load along one axis, short-bearing film",
         study: include_str!("one-axis-cycle.toml"),
@@ -46,6 +54,13 @@ pub const TEMPLATES: &[Template] = &[
         files: &[],
     },
 ];
+
+/// The name of a template that was most likely meant by one that is not there.
+#[must_use]
+pub fn nearest(name: &str) -> Option<&'static str> {
+    let names: Vec<&'static str> = TEMPLATES.iter().map(|template| template.name).collect();
+    nearest_word(&names, name)
+}
 
 /// The template with this name.
 #[must_use]

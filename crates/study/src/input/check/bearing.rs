@@ -55,7 +55,10 @@ impl Checker<'_> {
     fn radial_clearance(&mut self, diameter: Option<f64>) -> Option<f64> {
         const DIAMETRAL: &str = "bearing.diametral_clearance";
         const RELATIVE: &str = "bearing.relative_clearance";
-        let section = self.entry("bearing").map(|entry| entry.key_span.clone())?;
+        let section = self.entry("bearing");
+        let section = section
+            .filter(|entry| entry.value == Value::Table)
+            .map(|entry| entry.key_span.clone())?;
         let given = |path| self.reading.was_given(path);
         let error = match (given(DIAMETRAL), given(RELATIVE)) {
             (true, true) => self

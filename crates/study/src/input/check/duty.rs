@@ -1,7 +1,6 @@
 //! What the bearing has to do: journal state, steady load, load cycle, or the dimensionless case.
 
 use super::Checker;
-use crate::input::files::{TABLE_CAP, read_text};
 use crate::input::load_file::{CycleSettings, read_load_table};
 use crate::input::schema::Mode;
 use crate::input::study::{
@@ -248,7 +247,7 @@ impl Checker<'_> {
             return None;
         };
         let name = self.text("load_cycle.file")?;
-        let table = self.load_table(&directory.join(&name), &settings)?;
+        let table = self.load_table(directory, &name, &settings)?;
         self.warnings.extend(table.warnings);
         self.check_cycle_tilt(&table.cycle, bearing);
         Some(CycleDuty {
@@ -316,22 +315,13 @@ impl Checker<'_> {
 
     fn load_table(
         &mut self,
-        path: &Path,
+        directory: &Path,
+        name: &str,
         settings: &CycleSettings,
     ) -> Option<crate::input::load_file::LoadTable> {
-        let text = match read_text(path, TABLE_CAP) {
-            Ok(text) => text,
-            Err(error) => {
-                let message = format!("the load table cannot be used: {}", error.message);
-                let mut refused = self.error_at("load_cycle.file", message);
-                refused.hint = Some(format!("it was looked for at {}", path.display()));
-                self.errors.push(refused);
-                return None;
-            }
-        };
-        let table = read_load_table(&path.to_string_lossy(), &text, settings);
-        self.table_bytes = text.into_bytes();
-        match table {
+        let named_at = self.error_at("load_cycle.file", "");
+        let (file, text) = self.table_text(directory, name, "load table", named_at)?;
+        match read_load_table(&file, &text, settings) {
             Ok(table) => Some(table),
             Err(errors) => {
                 self.errors.extend(errors);

@@ -4,6 +4,7 @@ mod bearing;
 mod duty;
 
 use super::error::{InputError, InputErrors};
+use super::files::{TABLE_CAP, read_text};
 use super::keys::KEYS;
 use super::read::{Entries, Entry, MOST_ERRORS, Reading};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
@@ -12,14 +13,11 @@ use super::study::{
 };
 use super::values::{Value, default_value};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Reads and checks the text of a study.
 pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, InputErrors> {
     let mut reading = Reading::of(file, text);
-    if let Some(error) = newer_schema(&reading) {
-        return Err(error.into());
-    }
     if reading.errors.len() >= MOST_ERRORS {
         // The rest was not read: nothing is known to be missing.
         return Err(sorted(reading.errors));
@@ -35,6 +33,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         errors,
         warnings: Vec::new(),
         table_bytes: Vec::new(),
+        files: vec![PathBuf::from(file)],
     };
     checker.report_missing();
     checker.report_unused();
@@ -58,6 +57,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         limits,
         warnings: sorted(checker.warnings).0,
         file: file.to_owned(),
+        files: checker.files,
         text: text.to_owned(),
         input_hash: input_hash(&[text.as_bytes(), &checker.table_bytes]),
     })
@@ -72,21 +72,6 @@ fn sorted(mut errors: Vec<InputError>) -> InputErrors {
             .map_or((0, 0), |place| (place.line, place.columns.start))
     });
     InputErrors(errors)
-}
-
-/// A file of a later schema: its keys would only be called unknown.
-fn newer_schema(reading: &Reading<'_>) -> Option<InputError> {
-    let error = reading.errors.iter().find(|error| error.key == "schema")?;
-    let version: i64 = error.value.parse().ok()?;
-    (version > 1).then(|| InputError {
-        message: format!("the study is written for a newer schema, {version}"),
-        allowed: Some("schema 1".into()),
-        hint: Some(format!(
-            "use a newer version of the program; this is {}",
-            env!("CARGO_PKG_VERSION")
-        )),
-        ..error.clone()
-    })
 }
 
 /// What the study does, as far as `analysis` and `operation.dimensionless` tell.
@@ -129,12 +114,9 @@ fn report_missing_analysis(reading: &mut Reading<'_>) {
 
 /// The error for a key that is not there, at the header of its section.
 fn missing(reading: &Reading<'_>, key: &Key, header: Option<&Range<usize>>) -> InputError {
-    let (what, example) = match key.kind {
-        Kind::Table | Kind::TableList => ("section", format!("add [{}]", key.path)),
-        _ if key.typical.starts_with(['"', '[', '{']) || key.typical.parse::<f64>().is_ok() => (
-            "key",
-            format!("for example {} = {}", key.name(), example_of(key)),
-        ),
+    let (what, example) = match (key.kind, key.example()) {
+        (Kind::Table | Kind::TableList, _) => ("section", format!("add [{}]", key.path)),
+        (_, Some(example)) => ("key", format!("for example {} = {example}", key.name())),
         _ => ("key", format!("{} Typical: {}", key.meaning, key.typical)),
     };
     let message = format!("the {what} `{}` is missing", key.path);
@@ -147,26 +129,16 @@ fn missing(reading: &Reading<'_>, key: &Key, header: Option<&Range<usize>>) -> I
     .hinting(example)
 }
 
-/// The first of the typical values.
-fn example_of(key: &Key) -> &'static str {
-    match key
-        .typical
-        .strip_prefix('"')
-        .and_then(|rest| rest.find('"'))
-    {
-        Some(end) => &key.typical[..end + 2],
-        None => key.typical,
-    }
-}
-
 /// A study being checked.
 struct Checker<'t> {
     reading: Reading<'t>,
     mode: Mode,
     errors: Vec<InputError>,
     warnings: Vec<InputError>,
-    /// Bytes of the load table, for the hash.
+    /// Bytes of the tables that the study names, for the hash.
     table_bytes: Vec<u8>,
+    /// The study file and the tables it names.
+    files: Vec<PathBuf>,
 }
 
 impl Checker<'_> {
@@ -285,6 +257,58 @@ impl Checker<'_> {
                 self.warnings.push(note);
             }
         }
+    }
+
+    /// Reads a table that the study names, its path relative to the study: the path as messages
+    /// show it, and its text. `what` is the kind of table, `named_at` an error at its name.
+    fn table_text(
+        &mut self,
+        directory: &Path,
+        name: &str,
+        what: &str,
+        named_at: InputError,
+    ) -> Option<(String, String)> {
+        let path = directory.join(name);
+        let refuse = |why: &str, hint: String| InputError {
+            message: format!("the {what} cannot be used: {why}"),
+            hint: Some(hint),
+            ..named_at.clone()
+        };
+        let same_file = |other: &Path| {
+            let real = std::fs::canonicalize(&path);
+            matches!((real, std::fs::canonicalize(other)), (Ok(a), Ok(b)) if a == b)
+        };
+        let error = if name.trim().is_empty() {
+            refuse(
+                "it has no name",
+                "give the path of a CSV file, relative to the study".into(),
+            )
+        } else if same_file(Path::new(self.reading.file)) {
+            refuse(
+                "it is the study itself",
+                "give the path of a CSV file".into(),
+            )
+        } else {
+            match read_text(&path, TABLE_CAP) {
+                Ok(text) => {
+                    self.table_bytes.extend_from_slice(text.as_bytes());
+                    self.files.push(path.clone());
+                    return Some((path.to_string_lossy().into_owned(), text));
+                }
+                // What is wrong inside the file is shown there.
+                Err(error) if error.place.is_some() => *error,
+                Err(error) => {
+                    let shown: String = path.to_string_lossy().chars().take(300).collect();
+                    let looked = format!("it was looked for at {shown}");
+                    InputError {
+                        allowed: error.allowed,
+                        ..refuse(&error.message, error.hint.unwrap_or(looked))
+                    }
+                }
+            }
+        };
+        self.errors.push(error);
+        None
     }
 
     fn film_model(&self) -> Option<FilmModel> {

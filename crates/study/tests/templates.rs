@@ -1,0 +1,56 @@
+//! Every template runs as it is written, on a coarser grid, and answers its question.
+#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+
+use sommerfeld_study::templates::{self, TEMPLATES};
+use sommerfeld_study::{Outcome, load_study, solve};
+use std::fs;
+use std::ops::ControlFlow;
+
+/// A grid that is fast and coarse; the templates write or default to this one.
+const GRID: &str = "grid = [128, 32]";
+const COARSE: &str = "grid = [48, 12]";
+
+#[test]
+fn every_template_converges_without_a_message() {
+    for template in TEMPLATES {
+        let directory = tempfile::tempdir().unwrap();
+        for (name, content) in template.files {
+            fs::write(directory.path().join(name), content).unwrap();
+        }
+        let text = match template.study {
+            text if text.contains(GRID) => text.replace(GRID, COARSE),
+            text if text.contains("[film]") => text.replace("[film]", &format!("[film]\n{COARSE}")),
+            text => format!("{text}\n[film]\n{COARSE}\n"),
+        };
+        let file = directory.path().join("study.toml");
+        fs::write(&file, text).unwrap();
+        let study = load_study(&file).unwrap_or_else(|errors| panic!("{errors}"));
+        let results = solve(&study, &mut |_| ControlFlow::Continue(())).unwrap();
+        let name = template.name;
+        assert_eq!(results.header.status, Outcome::Converged, "{name}");
+        // The closed form says that it does not use the grid of this test.
+        let told = &results.header.messages;
+        assert!(
+            told.iter().all(|message| message.contains("film.grid")),
+            "{name}: {told:?}"
+        );
+        assert!(!results.key_figures().is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn a_template_explains_itself() {
+    for template in TEMPLATES {
+        let comments = template.study.matches('#').count();
+        assert!(comments >= 3, "{} has {comments} comments", template.name);
+        assert!(template.study.starts_with("# "), "{}", template.name);
+        assert!(!template.meaning.is_empty());
+    }
+}
+
+#[test]
+fn slips_of_the_pen_find_their_template() {
+    assert_eq!(templates::nearest("bigend"), Some("big-end"));
+    assert_eq!(templates::nearest("coeficients"), Some("coefficients"));
+    assert_eq!(templates::nearest("gearbox"), None);
+}
