@@ -45,15 +45,18 @@ impl<'a> CycleTable<'a> {
         self.cycle.points[0].crank_angle
     }
 
-    /// All rows are equal.
+    /// All rows are equal, and so are those of the supply.
     pub(crate) fn is_constant(&self) -> bool {
         let first = &self.cycle.points[0];
-        self.cycle.points.iter().all(|point| {
-            point.load == first.load
-                && point.moment == first.moment
-                && point.journal_speed == first.journal_speed
-                && point.shell_speed == first.shell_speed
-        })
+        let mut supplies = self.cycle.feed_pressures.iter();
+        let is_supplied_alike = supplies.all(crate::PressureCycle::is_constant);
+        is_supplied_alike
+            && self.cycle.points.iter().all(|point| {
+                point.load == first.load
+                    && point.moment == first.moment
+                    && point.journal_speed == first.journal_speed
+                    && point.shell_speed == first.shell_speed
+            })
     }
 
     /// Any row holds a moment.
@@ -197,6 +200,7 @@ mod tests {
             period: TAU,
             engine_speed: 100.0,
             journal_mass: 0.0,
+            feed_pressures: Vec::new(),
         }
     }
 

@@ -10,11 +10,12 @@ pub mod load_cycle;
 pub mod orbit;
 pub mod stability;
 mod step_control;
+mod supply_cycle;
 mod time_step;
 
 pub use balance::IterationRow;
 pub use coefficients::Coefficients;
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
-pub use load_cycle::{CyclePoint, JournalOrbit, LoadCycle, LoadPoint};
+pub use load_cycle::{CyclePoint, JournalOrbit, LoadCycle, LoadPoint, PressureCycle};
 pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
 pub use stability::{WhirlThreshold, whirl_threshold};

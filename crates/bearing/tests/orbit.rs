@@ -33,6 +33,7 @@ fn flores() -> (Bearing, LoadCycle) {
         period: 4.0 * PI,
         engine_speed: 209.439_510_239_319_5,
         journal_mass: 0.0,
+        feed_pressures: Vec::new(),
     };
     (plain_bearing(0.0635, 0.0254, 35.56e-6), cycle)
 }
@@ -124,6 +125,7 @@ fn plain_big_end_of_a_diesel_engine() {
         period: 4.0 * PI,
         engine_speed: speed,
         journal_mass: 0.0,
+        feed_pressures: Vec::new(),
     };
     let bearing = plain_bearing(0.072, 0.030, 36e-6);
     let mut film = ShortBearingFilm::new(&bearing, 8e-3).unwrap();
@@ -178,6 +180,7 @@ fn constant(load: [f64; 2], speed: f64, mass: f64, turns: f64) -> LoadCycle {
         period: turns * 2.0 * PI,
         engine_speed: speed,
         journal_mass: mass,
+        feed_pressures: Vec::new(),
     }
 }
 
@@ -280,6 +283,7 @@ fn smooth_cycle(mass: f64) -> LoadCycle {
         period: 2.0 * PI,
         engine_speed: 300.0,
         journal_mass: mass,
+        feed_pressures: Vec::new(),
     }
 }
 

@@ -450,6 +450,7 @@ fn load_cycle(rows: &[Row], columns: &[Column<'_>], settings: &CycleSettings) ->
         period: settings.period,
         engine_speed: settings.engine_speed,
         journal_mass: settings.journal_mass,
+        feed_pressures: Vec::new(),
     }
 }
 
