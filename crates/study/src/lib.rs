@@ -3,6 +3,7 @@
 pub mod input;
 pub mod limits;
 pub mod models;
+pub mod oil_holes;
 pub mod output;
 pub mod progress;
 pub mod report;

@@ -1,9 +1,10 @@
-//! The load table of a load-cycle study: CSV with the unit of each column in its header.
+//! The tables of a load-cycle study: CSV with the unit of each column in its header.
 //!
+//! The load table holds
 //! `crank_angle[deg],load_x[N],load_y[N]` and, in any order, `journal_speed`, `shell_speed`,
 //! `moment_x`, `moment_y`; lines that start with `#` are comments. Loads and moments act ON the
 //! journal. Angles ascend, may start anywhere and span at most one period; the last row may repeat
-//! the first.
+//! the first. The pressure table of a feed, `crank_angle[deg],pressure[bar]`, keeps the same rules.
 
 use super::error::{InputError, Place};
 use super::schema::nearest_word;
@@ -39,6 +40,46 @@ pub struct LoadTable {
     /// What the user should know.
     pub warnings: Vec<InputError>,
 }
+
+/// What a table may hold.
+struct Format {
+    /// What it is, and what its rows give, for messages.
+    what: &'static str,
+    values: &'static str,
+    /// Columns it may have, in the order of [`Row`].
+    columns: &'static [(&'static str, Dimension)],
+    /// The first columns must be there.
+    required: usize,
+    /// Columns that go together.
+    together: &'static [usize],
+    /// What its header looks like.
+    header: &'static str,
+    /// What to do about a step where the cycle closes.
+    closing: &'static str,
+}
+
+const LOADS: Format = Format {
+    what: "load table",
+    values: "load",
+    columns: &COLUMNS,
+    required: REQUIRED,
+    together: &MOMENTS,
+    header: HEADER,
+    closing: "a load that steps shakes the journal; check the ends of the table",
+};
+
+const PRESSURES: Format = Format {
+    what: "pressure table",
+    values: "pressure",
+    columns: &[
+        ("crank_angle", Dimension::Angle),
+        ("pressure", Dimension::Pressure),
+    ],
+    required: 2,
+    together: &[],
+    header: "crank_angle[deg],pressure[bar]",
+    closing: "check the ends of the table",
+};
 
 /// Columns a load table may have, in the order of [`Row`].
 const COLUMNS: [(&str, Dimension); 7] = [
@@ -98,6 +139,55 @@ pub fn read_load_table(
     text: &str,
     settings: &CycleSettings,
 ) -> Result<LoadTable, Vec<InputError>> {
+    let table = read_table(file, text, settings.period, &LOADS)?;
+    let columns = &table.columns;
+    let has_moments = columns.iter().any(|column| MOMENTS.contains(&column.index));
+    Ok(LoadTable {
+        cycle: load_cycle(&table.rows, columns, settings),
+        has_moments,
+        warnings: table.warnings,
+    })
+}
+
+/// Supply pressure of a feed as read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PressureTable {
+    /// Crank angles, rad, and gauge pressures, Pa, as in a load cycle.
+    pub points: Vec<[f64; 2]>,
+    /// What the user should know.
+    pub warnings: Vec<InputError>,
+}
+
+/// Reads the supply pressure of a feed over a period (rad).
+///
+/// # Errors
+/// As [`read_load_table`].
+pub fn read_pressure_table(
+    file: &str,
+    text: &str,
+    period: f64,
+) -> Result<PressureTable, Vec<InputError>> {
+    let table = read_table(file, text, period, &PRESSURES)?;
+    let points = table.rows.iter();
+    Ok(PressureTable {
+        points: points.map(|row| [row.values[0], row.values[1]]).collect(),
+        warnings: table.warnings,
+    })
+}
+
+/// Rows in SI.
+struct RawTable<'t> {
+    columns: Vec<Column<'t>>,
+    rows: Vec<Row>,
+    warnings: Vec<InputError>,
+}
+
+fn read_table<'t>(
+    file: &str,
+    text: &'t str,
+    period: f64,
+    format: &Format,
+) -> Result<RawTable<'t>, Vec<InputError>> {
     let mut lines = text
         .lines()
         .enumerate()
@@ -108,29 +198,32 @@ pub fn read_load_table(
         .filter(|line| !line.text.trim().is_empty() && !line.text.starts_with('#'));
     let Some(header) = lines.next() else {
         return Err(vec![
-            InputError::new(file, "the load table is empty").allowing(HEADER),
+            InputError::new(file, format!("the {} is empty", format.what)).allowing(format.header),
         ]);
     };
-    let columns = read_header(file, header)?;
-    let rows = read_rows(file, lines, &columns)?;
-    let (rows, closing_error) = close(file, rows, settings)?;
+    let columns = read_header(file, header, format)?;
+    let rows = read_rows(file, lines, &columns, format)?;
+    let (rows, closing_error) = close(file, rows, period, format)?;
     let mut warnings: Vec<InputError> = closing_error.into_iter().collect();
-    warnings.extend(warn_of_missing_angles(file, &rows, settings));
-    let has_moments = columns.iter().any(|column| MOMENTS.contains(&column.index));
-    Ok(LoadTable {
-        cycle: load_cycle(&rows, &columns, settings),
-        has_moments,
+    warnings.extend(warn_of_missing_angles(file, &rows, period, format));
+    Ok(RawTable {
+        columns,
+        rows,
         warnings,
     })
 }
 
-/// A column of the file: which of [`COLUMNS`], and its unit.
+/// A column of the file: which of its format, and its unit.
 struct Column<'t> {
     index: usize,
     unit: &'t str,
 }
 
-fn read_header<'t>(file: &str, header: Line<'t>) -> Result<Vec<Column<'t>>, Vec<InputError>> {
+fn read_header<'t>(
+    file: &str,
+    header: Line<'t>,
+    format: &Format,
+) -> Result<Vec<Column<'t>>, Vec<InputError>> {
     let mut errors = Vec::new();
     let mut columns: Vec<Column<'t>> = Vec::new();
     if header.text.contains(';') {
@@ -138,12 +231,12 @@ fn read_header<'t>(file: &str, header: Line<'t>) -> Result<Vec<Column<'t>>, Vec<
         return Err(vec![
             header
                 .error(file, 0..end, "the columns are separated by semicolons")
-                .allowing(HEADER)
+                .allowing(format.header)
                 .hinting("separate columns by commas and write decimals with a point"),
         ]);
     }
     for (cell, span) in header.cells() {
-        match read_column(cell) {
+        match read_column(cell, format) {
             Ok(column) if columns.iter().any(|known| known.index == column.index) => {
                 errors.push(header.error(file, span, format!("column `{cell}` is given twice")));
             }
@@ -157,7 +250,7 @@ fn read_header<'t>(file: &str, header: Line<'t>) -> Result<Vec<Column<'t>>, Vec<
         }
     }
     if errors.is_empty() {
-        errors.extend(missing_columns(file, header, &columns));
+        errors.extend(missing_columns(file, header, &columns, format));
     }
     if errors.is_empty() {
         Ok(columns)
@@ -167,23 +260,24 @@ fn read_header<'t>(file: &str, header: Line<'t>) -> Result<Vec<Column<'t>>, Vec<
 }
 
 /// Reads `name[unit]`; the error is a message and what is allowed.
-fn read_column(cell: &str) -> Result<Column<'_>, (String, String)> {
+fn read_column<'t>(cell: &'t str, format: &Format) -> Result<Column<'t>, (String, String)> {
     let shown: String = cell.chars().take(40).collect();
     let (name, unit) = match cell.split_once('[') {
         Some((name, unit)) => (name.trim(), unit.strip_suffix(']')),
         None => (cell, None),
     };
-    let Some(index) = COLUMNS.iter().position(|column| column.0 == name) else {
-        let names = COLUMNS.map(|column| column.0);
+    let mut known = format.columns.iter();
+    let Some(index) = known.position(|column| column.0 == name) else {
+        let names: Vec<&str> = format.columns.iter().map(|column| column.0).collect();
         let meant = nearest_word(&names, name)
             .map(|word| format!("; did you mean `{word}`?"))
             .unwrap_or_default();
         return Err((
             format!("unknown column `{shown}`{meant}"),
-            HEADER.to_owned(),
+            format.header.to_owned(),
         ));
     };
-    let dimension = COLUMNS[index].1;
+    let dimension = format.columns[index].1;
     let units = format!("{name} in one of [{}]", dimension.units().join("], ["));
     match unit {
         None => Err((format!("column `{shown}` has no unit in brackets"), units)),
@@ -194,23 +288,34 @@ fn read_column(cell: &str) -> Result<Column<'_>, (String, String)> {
     }
 }
 
-fn missing_columns(file: &str, header: Line<'_>, columns: &[Column<'_>]) -> Option<InputError> {
+fn missing_columns(
+    file: &str,
+    header: Line<'_>,
+    columns: &[Column<'_>],
+    format: &Format,
+) -> Option<InputError> {
     let has = |index: usize| columns.iter().any(|column| column.index == index);
-    let mut missing: Vec<&str> = (0..REQUIRED)
+    let mut missing: Vec<&str> = (0..format.required)
         .filter(|&i| !has(i))
-        .map(|i| COLUMNS[i].0)
+        .map(|i| format.columns[i].0)
         .collect();
-    if MOMENTS.iter().any(|&index| has(index)) {
-        missing.extend(MOMENTS.iter().filter(|&&i| !has(i)).map(|&i| COLUMNS[i].0));
+    let together = format.together;
+    if together.iter().any(|&index| has(index)) {
+        let lacking = together.iter().filter(|&&i| !has(i));
+        missing.extend(lacking.map(|&i| format.columns[i].0));
     }
     if missing.is_empty() {
         return None;
     }
-    let message = format!("the load table lacks the column {}", missing.join(", "));
+    let message = format!(
+        "the {} lacks the column {}",
+        format.what,
+        missing.join(", ")
+    );
     Some(
         header
             .error(file, 0..header.text.len(), message)
-            .allowing(HEADER),
+            .allowing(format.header),
     )
 }
 
@@ -218,13 +323,14 @@ fn read_rows<'t>(
     file: &str,
     lines: impl Iterator<Item = Line<'t>>,
     columns: &[Column<'_>],
+    format: &Format,
 ) -> Result<Vec<Row>, Vec<InputError>> {
     let mut rows: Vec<Row> = Vec::new();
     let mut errors = Vec::new();
     let mut last = 0;
     for line in lines {
         last = line.number;
-        match read_row(file, line, columns) {
+        match read_row(file, line, columns, format) {
             Ok(row) => match rows.last() {
                 Some(before) if row.values[0] <= before.values[0] => {
                     errors.push(unsorted(file, line, columns, before, &row));
@@ -239,7 +345,7 @@ fn read_rows<'t>(
     }
     if errors.is_empty() && rows.len() < 2 {
         let place = Place::in_line(last, "", 0..0);
-        let message = format!("the load table has {} rows of numbers", rows.len());
+        let message = format!("the {} has {} rows of numbers", format.what, rows.len());
         let mut error = InputError::new(file, message).allowing("two rows or more");
         if last > 0 {
             error = error.at(place);
@@ -253,7 +359,12 @@ fn read_rows<'t>(
     }
 }
 
-fn read_row(file: &str, line: Line<'_>, columns: &[Column<'_>]) -> Result<Row, Box<InputError>> {
+fn read_row(
+    file: &str,
+    line: Line<'_>,
+    columns: &[Column<'_>],
+    format: &Format,
+) -> Result<Row, Box<InputError>> {
     let cells = line.cells().count();
     if cells != columns.len() {
         let message = format!("{cells} values, the header names {} columns", columns.len());
@@ -266,7 +377,7 @@ fn read_row(file: &str, line: Line<'_>, columns: &[Column<'_>]) -> Result<Row, B
     }
     let mut values = [0.0; COLUMNS.len()];
     for (column, (cell, span)) in columns.iter().zip(line.cells()) {
-        let (name, dimension) = COLUMNS[column.index];
+        let (name, dimension) = format.columns[column.index];
         let number = cell.parse::<f64>().ok();
         match number.and_then(|number| dimension.to_si(number, column.unit)) {
             Some(value) if value.is_finite() => values[column.index] = value,
@@ -328,18 +439,19 @@ fn round(value: f64) -> f64 {
 fn close(
     file: &str,
     mut rows: Vec<Row>,
-    settings: &CycleSettings,
+    period: f64,
+    format: &Format,
 ) -> Result<(Vec<Row>, Option<InputError>), Vec<InputError>> {
     let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
         return Ok((rows, None));
     };
     let span = last.values[0] - first.values[0];
-    let slack = 1e-6 * settings.period;
-    if span > settings.period + slack {
+    let slack = 1e-6 * period;
+    if span > period + slack {
         let message = format!(
             "the crank angles span {} deg, more than the period of {} deg",
             round(span.to_degrees()),
-            round(settings.period.to_degrees())
+            round(period.to_degrees())
         );
         let place = Place::in_line(last.line, "", 0..0);
         return Err(vec![
@@ -348,7 +460,7 @@ fn close(
                 .hinting("cut the table to one period or set load_cycle.period"),
         ]);
     }
-    let warning = closing_step(&rows, settings.period).map(|(name, share)| {
+    let warning = closing_step(&rows, period, format).map(|(name, share)| {
         InputError::new(
             file,
             format!(
@@ -358,9 +470,9 @@ fn close(
                 first.line
             ),
         )
-        .hinting("a load that steps shakes the journal; check the ends of the table")
+        .hinting(format.closing)
     });
-    if span > settings.period - slack {
+    if span > period - slack {
         rows.pop();
     }
     Ok((rows, warning))
@@ -368,7 +480,7 @@ fn close(
 
 /// Column with the largest step from the last row to the first, if it stays above [`CLOSING_STEP`]
 /// when what the slope of the rows beside explains over the closing angle is taken off.
-fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
+fn closing_step(rows: &[Row], period: f64, format: &Format) -> Option<(&'static str, f64)> {
     let [first, second, .., before_last, last] = rows else {
         return None;
     };
@@ -376,7 +488,7 @@ fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
     let slope = |from: &Row, to: &Row, index: usize| {
         ((to.values[index] - from.values[index]) / (to.values[0] - from.values[0])).abs()
     };
-    (1..COLUMNS.len())
+    (1..format.columns.len())
         .map(|index| {
             let values = || rows.iter().map(|row| row.values[index]);
             let range =
@@ -385,7 +497,10 @@ fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
             let step = (last.values[index] - first.values[index]).abs();
             let unexplained = step - steepest * closing_angle;
             let is_step = range > 0.0 && unexplained > CLOSING_STEP * range;
-            (COLUMNS[index].0, if is_step { step / range } else { 0.0 })
+            (
+                format.columns[index].0,
+                if is_step { step / range } else { 0.0 },
+            )
         })
         .filter(|&(_, share)| share > 0.0)
         .max_by(|a, b| a.1.total_cmp(&b.1))
@@ -395,7 +510,8 @@ fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
 fn warn_of_missing_angles(
     file: &str,
     rows: &[Row],
-    settings: &CycleSettings,
+    period: f64,
+    format: &Format,
 ) -> Option<InputError> {
     let (first, last) = (rows.first()?, rows.last()?);
     let covered = last.values[0] - first.values[0];
@@ -403,14 +519,15 @@ fn warn_of_missing_angles(
         .windows(2)
         .map(|pair| pair[1].values[0] - pair[0].values[0])
         .fold(0.0, f64::max);
-    let closing = settings.period - covered;
+    let closing = period - covered;
     (closing > CLOSING_ANGLE * largest).then(|| {
         InputError::new(
             file,
             format!(
-                "the table covers {} of {} deg; the load is interpolated over the rest",
+                "the table covers {} of {} deg; the {} is interpolated over the rest",
                 round(covered.to_degrees()),
-                round(settings.period.to_degrees())
+                round(period.to_degrees()),
+                format.values
             ),
         )
         .hinting("is load_cycle.period right?")

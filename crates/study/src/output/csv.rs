@@ -6,6 +6,7 @@
 use super::{OutputError, ResultWriter};
 use crate::results::{Body, CycleResults, FieldSnapshot, Results, degrees, status_name};
 use sommerfeld_bearing::CyclePoint;
+use sommerfeld_film::FeedFlow;
 
 /// Writes `cycle.csv`: one row per crank angle of a load cycle.
 #[derive(Debug, Clone, Copy)]
@@ -109,9 +110,12 @@ const CYCLE_COLUMNS: &[CycleColumn] = &[
     ("complementarity_violation[-]", |p, _| {
         p.summary.complementarity_violation
     }),
+    ("side_flow_front[m3/s]", |p, _| p.summary.side_flow[0]),
+    ("side_flow_rear[m3/s]", |p, _| p.summary.side_flow[1]),
 ];
 
-/// The table of a load cycle as CSV: the fixed columns, the flow of each feed, the status.
+/// The table of a load cycle as CSV: the fixed columns, the flow of each feed, the
+/// pressure in each feed, the status.
 ///
 /// # Errors
 /// [`OutputError::Content`].
@@ -120,17 +124,22 @@ pub fn cycle_table(cycle: &CycleResults) -> Result<Vec<u8>, OutputError> {
     let mut table = Table::new(CycleTable.file_name());
     let headers = CYCLE_COLUMNS.iter().map(|(name, _)| (*name).to_owned());
     let feed_headers = (1..=feeds).map(|number| format!("feed_{number}_flow[m3/s]"));
+    let pressure_headers = (1..=feeds).map(|number| format!("feed_{number}_pressure[Pa]"));
+    let feed_headers = feed_headers.chain(pressure_headers);
     table.row(headers.chain(feed_headers).chain(["status".to_owned()]))?;
     for (index, point) in cycle.orbit.points.iter().enumerate() {
         let fixed = CYCLE_COLUMNS
             .iter()
             .map(|(_, value)| number(value(point, cycle.bearing.radial_clearance)));
-        let flows = (0..feeds).map(|feed| {
-            let flow = cycle.feed_flows.get(index).and_then(|row| row.get(feed));
-            number(flow.map_or(f64::NAN, |feed| feed.flow))
-        });
+        let of_feeds = |value: fn(&FeedFlow) -> f64| {
+            (0..feeds).map(move |feed| {
+                let feed = cycle.feed_flows.get(index).and_then(|row| row.get(feed));
+                number(feed.map_or(f64::NAN, value))
+            })
+        };
+        let feeds = of_feeds(|feed| feed.flow).chain(of_feeds(|feed| feed.pressure));
         let status = status_name(point.outcome).to_owned();
-        table.row(fixed.chain(flows).chain([status]))?;
+        table.row(fixed.chain(feeds).chain([status]))?;
     }
     table.finish()
 }

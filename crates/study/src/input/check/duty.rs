@@ -217,7 +217,8 @@ impl Checker<'_> {
             return None;
         };
         let name = self.text("load_cycle.file")?;
-        let table = self.load_table(&directory.join(&name), &settings)?;
+        let mut table = self.load_table(&directory.join(&name), &settings)?;
+        table.cycle.feed_pressures = std::mem::take(&mut self.feed_tables.cycles);
         let has_moments = table.has_moments;
         self.warnings.extend(table.warnings);
         if has_moments && self.film_model().is_some_and(|model| !model.is_field()) {

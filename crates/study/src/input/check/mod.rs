@@ -2,6 +2,7 @@
 
 mod bearing;
 mod duty;
+mod grooves;
 
 use super::error::{InputError, InputErrors};
 use super::keys::KEYS;
@@ -11,6 +12,7 @@ use super::study::{
     Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
 use super::values::{Value, default_value};
+use sommerfeld_bearing::PressureCycle;
 use std::ops::Range;
 use std::path::Path;
 
@@ -35,6 +37,8 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         errors,
         warnings: Vec::new(),
         table_bytes: Vec::new(),
+        feed_tables: FeedTables::default(),
+        directory,
     };
     checker.report_missing();
     checker.report_unused();
@@ -48,6 +52,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         // Every value is there or an error says why not.
         return Err(InputError::new(file, "the study is incomplete").into());
     };
+    let input_hash = input_hash(&checker.hashed(text));
     Ok(Study {
         title: checker.text("title").unwrap_or_default(),
         analysis: analysis(mode),
@@ -57,7 +62,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         warnings: sorted(checker.warnings).0,
         file: file.to_owned(),
         text: text.to_owned(),
-        input_hash: input_hash(&[text.as_bytes(), &checker.table_bytes]),
+        input_hash,
     })
 }
 
@@ -165,9 +170,27 @@ struct Checker<'t> {
     warnings: Vec<InputError>,
     /// Bytes of the load table, for the hash.
     table_bytes: Vec<u8>,
+    /// Supply pressures over the crank angle.
+    feed_tables: FeedTables,
+    /// Where the files of the study lie.
+    directory: &'t Path,
+}
+
+/// Supply pressures over the crank angle, and the bytes they were read from, for the hash.
+#[derive(Default)]
+struct FeedTables {
+    cycles: Vec<PressureCycle>,
+    bytes: Vec<Vec<u8>>,
 }
 
 impl Checker<'_> {
+    /// Everything that the calculation depends on.
+    fn hashed<'a>(&'a self, text: &'a str) -> Vec<&'a [u8]> {
+        let mut parts = vec![text.as_bytes(), &self.table_bytes];
+        parts.extend(self.feed_tables.bytes.iter().map(Vec::as_slice));
+        parts
+    }
+
     /// The value of a key, or its default.
     fn value(&self, path: &str) -> Option<Value> {
         value_in(&self.reading.entries, path)
