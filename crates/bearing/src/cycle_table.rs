@@ -60,14 +60,17 @@ impl<'a> CycleTable<'a> {
         self.cycle.points[0].crank_angle
     }
 
-    /// All rows are equal.
+    /// All rows are equal, and so are those of the supply.
     pub(crate) fn is_constant(&self) -> bool {
         let first = &self.cycle.points[0];
         let tilt_is_constant = match &self.cycle.tilt {
             CycleTilt::Prescribed(tilts) => tilts.iter().all(|tilt| *tilt == tilts[0]),
             CycleTilt::Aligned | CycleTilt::Free => true,
         };
+        let mut supplies = self.cycle.feed_pressures.iter();
+        let is_supplied_alike = supplies.all(crate::PressureCycle::is_constant);
         tilt_is_constant
+            && is_supplied_alike
             && self.cycle.points.iter().all(|point| {
                 point.load == first.load
                     && point.moment == first.moment
@@ -276,6 +279,7 @@ mod tests {
             engine_speed: 100.0,
             journal_mass: 0.0,
             tilt: CycleTilt::Aligned,
+            feed_pressures: Vec::new(),
         }
     }
 

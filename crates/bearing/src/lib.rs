@@ -11,12 +11,13 @@ pub mod orbit;
 pub mod stability;
 pub mod stability_chart;
 mod step_control;
+mod supply_cycle;
 mod time_step;
 
 pub use balance::IterationRow;
 pub use coefficients::{Coefficients, instant_coefficients};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
-pub use load_cycle::{CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint};
+pub use load_cycle::{CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle};
 pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
 pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
 pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};

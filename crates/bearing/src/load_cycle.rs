@@ -48,6 +48,59 @@ pub struct LoadCycle {
     /// What holds the tilt.
     #[serde(default)]
     pub tilt: CycleTilt,
+    /// Supply pressures that change over the period; feeds without a table keep theirs.
+    #[serde(default)]
+    pub feed_pressures: Vec<PressureCycle>,
+}
+
+/// The supply pressure of one feed over the period: rows as those of a [`LoadCycle`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PressureCycle {
+    /// Index into the feeds of the bearing.
+    pub feed: usize,
+    /// Crank angle, rad, and gauge pressure at the supply, Pa.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl PressureCycle {
+    /// Pressure at a crank angle (rad, any turn) for a period (rad), Pa: linear between the rows.
+    /// Not a number without rows.
+    #[must_use]
+    pub fn at(&self, crank_angle: f64, period: f64) -> f64 {
+        let Some(&first) = self.points.first() else {
+            return f64::NAN;
+        };
+        let within = first[0] + (crank_angle - first[0]).rem_euclid(period);
+        let behind = self.points.partition_point(|point| point[0] <= within);
+        let from = self.points[behind.saturating_sub(1)];
+        let to = match self.points.get(behind) {
+            Some(&to) => to,
+            None => [first[0] + period, first[1]],
+        };
+        from[1] + (within - from[0]) / (to[0] - from[0]) * (to[1] - from[1])
+    }
+
+    /// Mean over the period (rad), Pa. Not a number without rows.
+    #[must_use]
+    pub fn mean(&self, period: f64) -> f64 {
+        let Some(&first) = self.points.first() else {
+            return f64::NAN;
+        };
+        let closing = [first[0] + period, first[1]];
+        let ends = self.points.iter().skip(1).chain([&closing]);
+        let area: f64 = self
+            .points
+            .iter()
+            .zip(ends)
+            .map(|(from, to)| 0.5 * (from[1] + to[1]) * (to[0] - from[0]))
+            .sum();
+        area / period
+    }
+
+    /// All rows are equal.
+    pub(crate) fn is_constant(&self) -> bool {
+        self.points.windows(2).all(|pair| pair[0][1] == pair[1][1])
+    }
 }
 
 /// The bearing at one crank angle of the periodic orbit.

@@ -14,6 +14,7 @@ use crate::balance::{NewtonLimits, add, coordinates, length, with_motion};
 use crate::cycle_table::CycleTable;
 use crate::equilibrium::{EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 use crate::step_control::Substeps;
+use crate::supply_cycle::SupplyCycle;
 use crate::time_step::{Moving, Stepper, Trial};
 use crate::{CyclePoint, JournalOrbit, LoadCycle};
 use serde::{Deserialize, Serialize};
@@ -126,7 +127,8 @@ const LARGEST_FAILURES: usize = 3;
 /// Output points in a row that may fail before the run is given up.
 const LARGEST_FAILED_POINTS: usize = 10;
 
-/// Runs the journal through the load cycle until its orbit closes.
+/// Runs the journal through the load cycle until its orbit closes. The supply pressures of the cycle
+/// take the place of those in `conditions` and in the bearing.
 ///
 /// Points that do not converge are marked and passed over; where the film starves or has no solution,
 /// or the observer stops the run, the points of the unfinished cycle come back with
@@ -211,7 +213,7 @@ impl<'a> Run<'a> {
             return Err(FilmError::NoTilt);
         }
         let stepper = Stepper {
-            conditions,
+            supply: SupplyCycle::new(bearing, cycle, conditions)?,
             engine_speed: cycle.engine_speed,
             mass: cycle.journal_mass,
             with_tilt: table.frees_tilt(),
@@ -264,9 +266,8 @@ impl<'a> Run<'a> {
             self.moving.rate = [x, y, tilt_x, tilt_y];
         }
         let (state, linearised) = if self.stepper.has_history {
-            let linearised = self
-                .film
-                .react(&state, Step::Steady, self.stepper.conditions)?;
+            let conditions = self.stepper.supply.at(self.moving.crank_angle);
+            let linearised = self.film.react(&state, Step::Steady, &conditions)?;
             (state, linearised)
         } else {
             let trial = self
@@ -317,7 +318,8 @@ impl<'a> Run<'a> {
                 ..EquilibriumSettings::default()
             },
         };
-        let found = find_equilibrium(self.film, self.bearing, &request, self.stepper.conditions)?;
+        let conditions = self.stepper.supply.at(first);
+        let found = find_equilibrium(self.film, self.bearing, &request, &conditions)?;
         self.stepper.film_solves += found.film_updates;
         if found.outcome == Outcome::Converged {
             self.film.accept_step();

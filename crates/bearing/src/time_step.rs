@@ -17,7 +17,8 @@ use crate::balance::{
     Balance, Balanced, Coordinates, Motion, NewtonLimits, add, coordinates, length, with_motion,
 };
 use crate::cycle_table::{CycleTable, HeldTilt};
-use sommerfeld_film::{Conditions, FilmError, FilmForce, JournalState, Linearised, Outcome, Step};
+use crate::supply_cycle::SupplyCycle;
+use sommerfeld_film::{FilmError, FilmForce, JournalState, Linearised, Outcome, Step};
 use std::f64::consts::SQRT_2;
 
 /// Share of the step that the trapezoidal stage of TR-BDF2 takes: 2 - sqrt 2.
@@ -66,7 +67,7 @@ pub(crate) struct Trial {
 #[derive(Debug, Clone)]
 pub(crate) struct Stepper<'a> {
     pub table: CycleTable<'a>,
-    pub conditions: &'a Conditions<'a>,
+    pub supply: SupplyCycle<'a>,
     /// Crank speed, rad/s.
     pub engine_speed: f64,
     /// kg.
@@ -287,7 +288,8 @@ impl Stepper<'_> {
         };
         let jump = add(guess, -1.0, safe);
         let share = balance.allowed_share(film, safe, jump, self.limits.gap_loss);
-        let found = balance.find(film, self.conditions, add(safe, share, jump), &self.limits)?;
+        let conditions = self.supply.at(crank_angle);
+        let found = balance.find(film, &conditions, add(safe, share, jump), &self.limits)?;
         self.film_solves += found.film_updates;
         Ok(found)
     }

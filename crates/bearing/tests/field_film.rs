@@ -77,6 +77,7 @@ fn diesel_cycle() -> LoadCycle {
         engine_speed: 2000.0 * PI / 30.0,
         journal_mass: 0.0,
         tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
     }
 }
 
@@ -142,6 +143,7 @@ fn finite_film_on_the_one_axis_cycle() {
         engine_speed: speed,
         journal_mass: 0.0,
         tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
     };
     let oil = Lubricant::constant(0.00416, 850.0);
     let mut film = FilmSolver::new(&bearing, &oil, [64, 8]).unwrap();

@@ -34,6 +34,7 @@ fn flores() -> (Bearing, LoadCycle) {
         engine_speed: 209.439_510_239_319_5,
         journal_mass: 0.0,
         tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
     };
     (plain_bearing(0.0635, 0.0254, 35.56e-6), cycle)
 }
@@ -126,6 +127,7 @@ fn plain_big_end_of_a_diesel_engine() {
         engine_speed: speed,
         journal_mass: 0.0,
         tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
     };
     let bearing = plain_bearing(0.072, 0.030, 36e-6);
     let mut film = ShortBearingFilm::new(&bearing, 8e-3).unwrap();
@@ -181,6 +183,7 @@ fn constant(load: [f64; 2], speed: f64, mass: f64, turns: f64) -> LoadCycle {
         engine_speed: speed,
         journal_mass: mass,
         tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
     }
 }
 
@@ -284,6 +287,7 @@ fn smooth_cycle(mass: f64) -> LoadCycle {
         engine_speed: 300.0,
         journal_mass: mass,
         tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
     }
 }
 

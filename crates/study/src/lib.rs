@@ -4,6 +4,7 @@ pub mod hdf5;
 pub mod input;
 pub mod limits;
 pub mod models;
+pub mod oil_holes;
 pub mod output;
 pub mod progress;
 pub mod regime;

@@ -585,6 +585,31 @@ impl CycleResults {
         area / span
     }
 
+    /// Mean of a value of one feed over the crank angles of the orbit (trapezoidal rule); not a
+    /// number where it was not recorded at every point.
+    pub fn mean_of_feed(&self, feed: usize, value: impl Fn(&FeedFlow) -> f64) -> f64 {
+        let points = &self.orbit.points;
+        if self.feed_flows.len() != points.len() {
+            return f64::NAN;
+        }
+        let at = |row: &Vec<FeedFlow>| row.get(feed).map_or(f64::NAN, &value);
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
+            return f64::NAN;
+        };
+        let span = last.crank_angle - first.crank_angle;
+        if span == 0.0 {
+            return at(&self.feed_flows[0]);
+        }
+        let area: f64 = points
+            .windows(2)
+            .zip(self.feed_flows.windows(2))
+            .map(|(pair, rows)| {
+                0.5 * (at(&rows[0]) + at(&rows[1])) * (pair[1].crank_angle - pair[0].crank_angle)
+            })
+            .sum();
+        area / span
+    }
+
     /// Eccentricity of a point in the mid-plane over the radial clearance.
     #[must_use]
     pub fn relative_eccentricity(&self, point: &CyclePoint) -> f64 {

@@ -3,7 +3,8 @@
 //! `crank_angle[deg],load_x[N],load_y[N]` and, in any order, `journal_speed`, `shell_speed`,
 //! and `moment_x`, `moment_y`, which free the tilt, or `tilt_x`, `tilt_y`, which prescribe it; lines
 //! that start with `#` are comments. Loads and moments act ON the journal. Angles ascend, may start
-//! anywhere and span at most one period; the last row may repeat the first.
+//! anywhere and span at most one period; the last row may repeat the first. The pressure table of a
+//! feed, `crank_angle[deg],pressure[bar]`, keeps the same rules.
 
 use super::csv_table::{self, CsvTable, Layout, read_table};
 use super::error::InputError;
@@ -63,9 +64,41 @@ const LAYOUT: Layout<{ COLUMNS.len() }> = Layout {
     header: HEADER,
 };
 
+const PRESSURE_LAYOUT: Layout<2> = Layout {
+    what: "pressure table",
+    columns: [
+        ("crank_angle", Dimension::Angle),
+        ("pressure", Dimension::Pressure),
+    ],
+    required: 2,
+    together: &[],
+    header: "crank_angle[deg],pressure[bar]",
+};
+
 /// A load table before it becomes a cycle.
 type Table<'t> = CsvTable<'t, { COLUMNS.len() }>;
-type Row<'t> = csv_table::Row<'t, { COLUMNS.len() }>;
+
+/// What messages say of a table over the crank angle.
+struct Words {
+    /// What its rows give.
+    values: &'static str,
+    /// What to do where there is one row only.
+    constant: &'static str,
+    /// What to do about a step where the cycle closes.
+    closing: &'static str,
+}
+
+const LOAD_WORDS: Words = Words {
+    values: "load",
+    constant: "for a constant load use analysis = \"equilibrium\"",
+    closing: "a load that steps shakes the journal; check the ends of the table",
+};
+
+const PRESSURE_WORDS: Words = Words {
+    values: "pressure",
+    constant: "for a constant pressure use `pressure`",
+    closing: "check the ends of the table",
+};
 
 /// Reads a load table.
 ///
@@ -76,29 +109,64 @@ pub fn read_load_table(
     text: &str,
     settings: &CycleSettings,
 ) -> Result<LoadTable, Vec<InputError>> {
-    let mut table = read_table(file, text, &LAYOUT)?;
+    let (table, warnings) = read_cycle(file, text, &LAYOUT, settings.period, &LOAD_WORDS)?;
     if let Some(error) = moments_and_tilts(&table) {
         return Err(vec![error]);
     }
+    Ok(LoadTable {
+        cycle: load_cycle(&table, settings),
+        warnings,
+    })
+}
+
+/// Supply pressure of a feed as read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PressureTable {
+    /// Crank angles, rad, and gauge pressures, Pa, as in a load cycle.
+    pub points: Vec<[f64; 2]>,
+    /// What the user should know.
+    pub warnings: Vec<InputError>,
+}
+
+/// Reads the supply pressure of a feed over a period (rad).
+///
+/// # Errors
+/// As [`read_load_table`].
+pub fn read_pressure_table(
+    file: &str,
+    text: &str,
+    period: f64,
+) -> Result<PressureTable, Vec<InputError>> {
+    let (table, warnings) = read_cycle(file, text, &PRESSURE_LAYOUT, period, &PRESSURE_WORDS)?;
+    Ok(PressureTable {
+        points: table.rows.iter().map(|row| row.values).collect(),
+        warnings,
+    })
+}
+
+/// Reads a table whose first column is the crank angle of one period (rad); with warnings.
+fn read_cycle<'t, const N: usize>(
+    file: &'t str,
+    text: &'t str,
+    layout: &Layout<N>,
+    period: f64,
+    words: &Words,
+) -> Result<(CsvTable<'t, N>, Vec<InputError>), Vec<InputError>> {
+    let mut table = read_table(file, text, layout)?;
     let errors = table.not_ascending(0, "crank angle");
     if !errors.is_empty() {
         return Err(errors);
     }
     if let [only] = &table.rows[..] {
-        let error = table.error_at(only, 0, "the load table has one row only");
+        let error = table.error_at(only, 0, format!("the {} has one row only", layout.what));
         return Err(vec![
-            error
-                .allowing("two rows or more")
-                .hinting("for a constant load use analysis = \"equilibrium\""),
+            error.allowing("two rows or more").hinting(words.constant),
         ]);
     }
-    let closing_error = close(file, &mut table, settings)?;
+    let closing_error = close(file, &mut table, layout, period, words)?;
     let mut warnings: Vec<InputError> = closing_error.into_iter().collect();
-    warnings.extend(warn_of_missing_angles(file, &table.rows, settings));
-    Ok(LoadTable {
-        cycle: load_cycle(&table, settings),
-        warnings,
-    })
+    warnings.extend(warn_of_missing_angles(file, &table.rows, period, words));
+    Ok((table, warnings))
 }
 
 /// A tilt cannot be prescribed and free.
@@ -121,28 +189,30 @@ fn round(value: f64) -> f64 {
 }
 
 /// Checks the span, drops a last row that repeats the first, and warns of a closing step.
-fn close(
+fn close<const N: usize>(
     file: &str,
-    table: &mut Table<'_>,
-    settings: &CycleSettings,
+    table: &mut CsvTable<'_, N>,
+    layout: &Layout<N>,
+    period: f64,
+    words: &Words,
 ) -> Result<Option<InputError>, Vec<InputError>> {
     let (Some(first), Some(last)) = (table.rows.first(), table.rows.last()) else {
         return Ok(None);
     };
     let span = last.values[0] - first.values[0];
-    let slack = 1e-6 * settings.period;
-    if span > settings.period + slack {
+    let slack = 1e-6 * period;
+    if span > period + slack {
         let message = format!(
             "the crank angles span {} deg, more than the period of {} deg",
             round(span.to_degrees()),
-            round(settings.period.to_degrees())
+            round(period.to_degrees())
         );
         let error = table.error_at(last, 0, message);
         return Err(vec![
             error.hinting("cut the table to one period or set load_cycle.period"),
         ]);
     }
-    let warning = closing_step(&table.rows, settings.period).map(|(name, share)| {
+    let warning = closing_step(&table.rows, layout, period).map(|(name, share)| {
         InputError::new(
             file,
             format!(
@@ -152,9 +222,9 @@ fn close(
                 first.line()
             ),
         )
-        .hinting("a load that steps shakes the journal; check the ends of the table")
+        .hinting(words.closing)
     });
-    if span > settings.period - slack {
+    if span > period - slack {
         table.rows.pop();
     }
     Ok(warning)
@@ -162,15 +232,19 @@ fn close(
 
 /// Column with the largest step from the last row to the first, if it stays above [`CLOSING_STEP`]
 /// when what the slope of the rows beside explains over the closing angle is taken off.
-fn closing_step(rows: &[Row<'_>], period: f64) -> Option<(&'static str, f64)> {
+fn closing_step<const N: usize>(
+    rows: &[csv_table::Row<'_, N>],
+    layout: &Layout<N>,
+    period: f64,
+) -> Option<(&'static str, f64)> {
     let [first, second, .., before_last, last] = rows else {
         return None;
     };
     let closing_angle = (first.values[0] + period - last.values[0]).max(0.0);
-    let slope = |from: &Row, to: &Row, index: usize| {
+    let slope = |from: &csv_table::Row<'_, N>, to: &csv_table::Row<'_, N>, index: usize| {
         ((to.values[index] - from.values[index]) / (to.values[0] - from.values[0])).abs()
     };
-    (1..COLUMNS.len())
+    (1..N)
         .map(|index| {
             let values = || rows.iter().map(|row| row.values[index]);
             let range =
@@ -179,17 +253,21 @@ fn closing_step(rows: &[Row<'_>], period: f64) -> Option<(&'static str, f64)> {
             let step = (last.values[index] - first.values[index]).abs();
             let unexplained = step - steepest * closing_angle;
             let is_step = range > 0.0 && unexplained > CLOSING_STEP * range;
-            (COLUMNS[index].0, if is_step { step / range } else { 0.0 })
+            (
+                layout.columns[index].0,
+                if is_step { step / range } else { 0.0 },
+            )
         })
         .filter(|&(_, share)| share > 0.0)
         .max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Warns of a table that covers only part of the period.
-fn warn_of_missing_angles(
+fn warn_of_missing_angles<const N: usize>(
     file: &str,
-    rows: &[Row<'_>],
-    settings: &CycleSettings,
+    rows: &[csv_table::Row<'_, N>],
+    period: f64,
+    words: &Words,
 ) -> Option<InputError> {
     let (first, last) = (rows.first()?, rows.last()?);
     let covered = last.values[0] - first.values[0];
@@ -197,14 +275,15 @@ fn warn_of_missing_angles(
         .windows(2)
         .map(|pair| pair[1].values[0] - pair[0].values[0])
         .fold(0.0, f64::max);
-    let closing = settings.period - covered;
+    let closing = period - covered;
     (closing > CLOSING_ANGLE * largest).then(|| {
         InputError::new(
             file,
             format!(
-                "the table covers {} of {} deg; the load is interpolated over the rest",
+                "the table covers {} of {} deg; the {} is interpolated over the rest",
                 round(covered.to_degrees()),
-                round(settings.period.to_degrees())
+                round(period.to_degrees()),
+                words.values
             ),
         )
         .hinting("is load_cycle.period right?")
@@ -247,6 +326,7 @@ fn load_cycle(table: &Table<'_>, settings: &CycleSettings) -> LoadCycle {
         engine_speed: settings.engine_speed,
         journal_mass: settings.journal_mass,
         tilt: cycle_tilt(table),
+        feed_pressures: Vec::new(),
     }
 }
 

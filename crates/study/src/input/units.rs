@@ -40,6 +40,8 @@ pub enum Dimension {
     Power,
     /// m3/s
     VolumeFlow,
+    /// Pa s/m3: pressure drop per volume flow
+    FlowResistance,
 }
 
 /// One unit: name, factor to SI and the SI value of its zero.
@@ -96,6 +98,11 @@ const VOLUME_FLOW: &[Unit] = &[
     ("cm3/s", 1e-6, 0.0),
     ("l/min", 1e-3 / 60.0, 0.0),
 ];
+const FLOW_RESISTANCE: &[Unit] = &[
+    ("bar.s/cm3", 1e11, 0.0),
+    ("Pa.s/m3", 1.0, 0.0),
+    ("bar.min/l", 6e9, 0.0),
+];
 
 /// All dimensions, to look up what a foreign unit measures.
 const DIMENSIONS: &[Dimension] = &[
@@ -113,6 +120,7 @@ const DIMENSIONS: &[Dimension] = &[
     Dimension::Density,
     Dimension::Power,
     Dimension::VolumeFlow,
+    Dimension::FlowResistance,
 ];
 
 impl Dimension {
@@ -135,6 +143,7 @@ impl Dimension {
             Self::Density => "density",
             Self::Power => "power",
             Self::VolumeFlow => "volume flow",
+            Self::FlowResistance => "flow resistance",
         }
     }
 
@@ -155,6 +164,7 @@ impl Dimension {
             Self::Density => DENSITY,
             Self::Power => POWER,
             Self::VolumeFlow => VOLUME_FLOW,
+            Self::FlowResistance => FLOW_RESISTANCE,
         }
     }
 
@@ -435,6 +445,8 @@ mod tests {
             ("65 cSt", Dimension::KinematicViscosity, 65e-6),
             ("3 N*m", Dimension::Moment, 3.0),
             ("850 kg/m^3", Dimension::Density, 850.0),
+            ("2 bar.s/cm3", Dimension::FlowResistance, 2e11),
+            ("1 bar min/l", Dimension::FlowResistance, 6e9),
             (".5 1/s", Dimension::Rate, 0.5),
         ];
         for (text, dimension, value) in cases {

@@ -120,6 +120,8 @@ const CYCLE_COLUMNS: &[CycleColumn] = &[
     ("complementarity_violation[-]", |p, _| {
         p.summary.complementarity_violation
     }),
+    ("side_flow_front[m3/s]", |p, _| p.summary.side_flow[0]),
+    ("side_flow_rear[m3/s]", |p, _| p.summary.side_flow[1]),
 ];
 
 /// Headers and values of the columns of the cycle table that hold numbers.
@@ -131,20 +133,22 @@ pub(super) fn cycle_columns(cycle: &CycleResults) -> Vec<(String, Vec<f64>)> {
         ((*name).to_owned(), values.collect())
     });
     let feeds = cycle.feed_flows.iter().map(Vec::len).max().unwrap_or(0);
-    let flows = (0..feeds).map(|feed| {
-        let flow = |index| {
-            cycle
-                .feed_flows
-                .get(index)
-                .and_then(|row: &Vec<FeedFlow>| row.get(feed))
-        };
-        let values = (0..points.len()).map(|index| flow(index).map_or(f64::NAN, |feed| feed.flow));
-        (format!("feed_{}_flow[m3/s]", feed + 1), values.collect())
-    });
-    fixed.chain(flows).collect()
+    let of_feed = |feed: usize, value: fn(&FeedFlow) -> f64| {
+        (0..points.len())
+            .map(|index| {
+                let flow = cycle.feed_flows.get(index).and_then(|row| row.get(feed));
+                flow.map_or(f64::NAN, value)
+            })
+            .collect()
+    };
+    let name = |feed: usize, what: &str| format!("feed_{}_{what}", feed + 1);
+    let flows = (0..feeds).map(|k| (name(k, "flow[m3/s]"), of_feed(k, |feed| feed.flow)));
+    let pressures = (0..feeds).map(|k| (name(k, "pressure[Pa]"), of_feed(k, |feed| feed.pressure)));
+    fixed.chain(flows).chain(pressures).collect()
 }
 
-/// The table of a load cycle as CSV: the fixed columns, the flow of each feed, the status.
+/// The table of a load cycle as CSV: the fixed columns, the flow of each feed, the
+/// pressure in each feed, the status.
 ///
 /// # Errors
 /// [`OutputError::Content`].

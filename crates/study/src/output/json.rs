@@ -5,6 +5,7 @@
 use super::{OutputError, ResultWriter};
 use crate::limits::LimitCheck;
 use crate::models::Model;
+use crate::oil_holes::{OilHole, oil_holes};
 use crate::results::{
     Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, PROGRAM,
     Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load, stability_name,
@@ -12,6 +13,7 @@ use crate::results::{
 };
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
+use sommerfeld_film::FeedFlow;
 use std::collections::BTreeMap;
 
 /// Writes `summary.json`.
@@ -123,7 +125,12 @@ fn steady_keys(steady: &SteadyResults) -> Value {
         "friction_torque_shell_n_m": steady.reaction.friction_torque_shell,
         "power_loss_w": summary.power_loss(),
         "side_flow_m3_s": summary.side_flow[0] + summary.side_flow[1],
+        "side_flow_front_m3_s": summary.side_flow[0],
+        "side_flow_rear_m3_s": summary.side_flow[1],
         "feed_flow_m3_s": summary.feed_flow,
+        "groove_flows_m3_s": steady.feed_flows.iter().map(|feed| feed.flow).collect::<Vec<_>>(),
+        "groove_pressures_pa":
+            steady.feed_flows.iter().map(|feed| feed.pressure).collect::<Vec<_>>(),
         "full_film_share": summary.full_film_share,
         "reynolds_number": summary.reynolds_number,
         "mass_balance_relative": summary.mass_balance_relative,
@@ -249,6 +256,11 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
             .largest(|point| value(&point.summary))
             .map(|point| value(&point.summary))
     };
+    let grooves = |value: fn(&FeedFlow) -> f64| -> Vec<f64> {
+        (0..cycle.bearing.feeds.len())
+            .map(|feed| cycle.mean_of_feed(feed, value))
+            .collect()
+    };
     let edge = |edge: usize| cycle.thinnest_edge(edge);
     let edge_film = |index: usize| edge(index).map(|p| p.summary.edge_film_thickness[index]);
     let moment = cycle.largest(|point| magnitude(point.moment));
@@ -270,7 +282,12 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         "mean_friction_power_w": cycle.mean(|p| p.summary.friction_power),
         "mean_squeeze_power_w": cycle.mean(|p| p.summary.squeeze_power),
         "mean_side_flow_m3_s": cycle.mean(|p| p.summary.side_flow[0] + p.summary.side_flow[1]),
+        "mean_side_flow_front_m3_s": cycle.mean(|p| p.summary.side_flow[0]),
+        "mean_side_flow_rear_m3_s": cycle.mean(|p| p.summary.side_flow[1]),
         "mean_feed_flow_m3_s": cycle.mean(|p| p.summary.feed_flow),
+        "mean_groove_flows_m3_s": grooves(|feed| feed.flow),
+        "mean_groove_pressures_pa": grooves(|feed| feed.pressure),
+        "oil_holes": oil_holes(cycle).iter().map(oil_hole).collect::<Vec<_>>(),
         "mean_relative_eccentricity": cycle.mean(|p| cycle.relative_eccentricity(p)),
         "cycle_closure": orbit.closure,
         "cycles": orbit.cycles,
@@ -284,6 +301,25 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         keys["coefficients"] = cycle.coefficients.iter().map(instant).collect();
     }
     keys
+}
+
+/// A feed of the journal over the cycle; grooves count from 1, as in `cycle.csv`.
+fn oil_hole(hole: &OilHole) -> Value {
+    let ranges = |ranges: &[[f64; 2]]| -> Vec<[f64; 2]> {
+        ranges.iter().map(|range| range.map(degrees)).collect()
+    };
+    json!({
+        "groove": hole.feed + 1,
+        "mean_flow_m3_s": hole.mean_flow,
+        "minimum_flow_m3_s": hole.minimum_flow[0],
+        "minimum_flow_angle_deg": degrees(hole.minimum_flow[1]),
+        "maximum_flow_m3_s": hole.maximum_flow[0],
+        "maximum_flow_angle_deg": degrees(hole.maximum_flow[1]),
+        "backflow_deg": ranges(&hole.backflow),
+        "backflow_share": hole.backflow_share,
+        "facing_groove_deg": ranges(&hole.facing),
+        "facing_groove_share": hole.facing_share,
+    })
 }
 
 fn dimensionless_keys(integrals: &DimensionlessResults) -> Value {

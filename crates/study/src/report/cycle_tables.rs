@@ -4,6 +4,7 @@ use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
 use crate::limits::Quantity;
+use crate::oil_holes::oil_holes;
 use crate::regime::FlowRegime;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use sommerfeld_bearing::CyclePoint;
@@ -47,6 +48,7 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
         convergence(cycle),
     ];
     tables.extend(feeds(cycle, units));
+    tables.extend(oil_hole_rows(cycle, units));
     tables.extend(not_converged_rows(cycle));
     tables
 }
@@ -341,6 +343,56 @@ fn convergence(cycle: &CycleResults) -> Table {
         rows: cells,
         ..Table::default()
     }
+}
+
+/// Crank angles, `from to to`, one range after the other.
+fn ranges(ranges: &[[f64; 2]]) -> String {
+    if ranges.is_empty() {
+        return "never".to_owned();
+    }
+    let ranges = ranges
+        .iter()
+        .map(|[from, to]| format!("{} to {}", angle(degrees(*from)), angle(degrees(*to))));
+    ranges.collect::<Vec<_>>().join("; ")
+}
+
+fn oil_hole_rows(cycle: &CycleResults, units: &Units) -> Option<Table> {
+    let holes = oil_holes(cycle);
+    if holes.is_empty() {
+        return None;
+    }
+    let at = |[flow, crank]: [f64; 2]| {
+        let at = angle(degrees(crank));
+        format!("{} at {at}", units.flow.show(flow))
+    };
+    let rows = holes.iter().map(|hole| {
+        vec![
+            Cell::text(format!("Feed {}", hole.feed + 1)),
+            Cell::number(units.flow.show(hole.mean_flow)),
+            Cell::number(at(hole.minimum_flow)),
+            Cell::number(at(hole.maximum_flow)),
+            Cell::text(ranges(&hole.backflow)),
+            Cell::number(format!("{} %", significant(100.0 * hole.backflow_share))),
+            Cell::text(ranges(&hole.facing)),
+        ]
+    });
+    Some(Table {
+        title: "Oil holes of the journal",
+        note: "Flow into the film; negative where the film, full and above the pressure of the \
+               hole, pushes oil back. Angles are crank angles."
+            .into(),
+        columns: vec![
+            "Feed",
+            "Mean flow",
+            "Smallest flow",
+            "Largest flow",
+            "Oil pushed back",
+            "Share of the cycle",
+            "Opens into a shell groove",
+        ],
+        rows: rows.collect(),
+        size: "wide",
+    })
 }
 
 fn not_converged_rows(cycle: &CycleResults) -> Option<Table> {

@@ -1,16 +1,11 @@
-//! Bearing, grooves and oil.
+//! Bearing and oil.
 
-use super::{Checker, as_number, as_text, value_in};
-use crate::input::error::InputError;
-use crate::input::read::{Entries, MOST_ERRORS};
+use super::Checker;
 use crate::input::schema::Mode;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
-use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
-};
+use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet};
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
-use std::f64::consts::PI;
 use std::ops::Range;
 
 /// Relative clearances outside this range are more often a slip of the unit than a bearing.
@@ -263,28 +258,6 @@ impl Checker<'_> {
         }
     }
 
-    fn feeds(&mut self, bearing: &Bearing) -> Vec<Feed> {
-        let mut feeds = Vec::new();
-        let mut errors = Vec::new();
-        for (header, entries) in &self.reading.grooves {
-            if errors.len() >= MOST_ERRORS {
-                break;
-            }
-            let groove = GrooveCheck {
-                checker: self,
-                header,
-                entries,
-                bearing,
-            };
-            match groove.feed() {
-                Ok(feed) => feeds.push(feed),
-                Err(error) => errors.extend(error),
-            }
-        }
-        self.errors.extend(errors);
-        feeds
-    }
-
     /// The oil, with its laws checked at the temperature of the film.
     pub(super) fn lubricant(&mut self, temperature: f64) -> Option<Lubricant> {
         let density = match self.value("oil.density")? {
@@ -363,175 +336,4 @@ impl Checker<'_> {
             },
         })
     }
-}
-
-/// One `[[bearing.groove]]` being checked.
-struct GrooveCheck<'c, 't> {
-    checker: &'c Checker<'t>,
-    header: &'c Range<usize>,
-    entries: &'c Entries,
-    bearing: &'c Bearing,
-}
-
-/// What is wrong with a groove; empty where it was reported when it was read.
-type Refused = Vec<InputError>;
-
-impl GrooveCheck<'_, '_> {
-    fn number(&self, path: &str) -> Result<f64, Refused> {
-        value_in(self.entries, path)
-            .and_then(as_number)
-            .ok_or_else(Vec::new)
-    }
-
-    fn text(&self, path: &str) -> Result<String, Refused> {
-        value_in(self.entries, path)
-            .and_then(as_text)
-            .ok_or_else(Vec::new)
-    }
-
-    /// An error at a value of this groove, or at its header.
-    fn error(&self, path: &str, message: impl Into<String>) -> InputError {
-        let span = self
-            .entries
-            .get(path)
-            .map_or(self.header, |entry| &entry.value_span);
-        self.checker.reading.error(span, message).of_key(path)
-    }
-
-    fn feed(&self) -> Result<Feed, Refused> {
-        let kind = self.text("bearing.groove.kind")?;
-        self.check_keys(&kind)?;
-        let shape = self.shape(&kind)?;
-        let feed = Feed {
-            shape,
-            carried_by: match self.text("bearing.groove.carried_by")?.as_str() {
-                "journal" => Carrier::Journal,
-                _ => Carrier::Shell,
-            },
-            angle: match shape {
-                FeedShape::Circumferential { .. } => 0.0,
-                _ => self.number("bearing.groove.angle")?,
-            },
-            position: self.number("bearing.groove.position")?,
-            pressure: self.number("bearing.groove.pressure")?,
-            line: FeedLine::Direct,
-        };
-        let errors = self.misfits(&feed);
-        if errors.is_empty() {
-            Ok(feed)
-        } else {
-            Err(errors)
-        }
-    }
-
-    /// Each kind has its own keys: those it lacks and those it has no use for.
-    fn check_keys(&self, kind: &str) -> Result<(), Refused> {
-        let own: &[&str] = match kind {
-            "hole" => &["angle", "diameter"],
-            "circumferential" => &["width"],
-            _ => &["angle", "length", "width"],
-        };
-        let mut errors = Vec::new();
-        for name in ["angle", "diameter", "length", "width"] {
-            let path = format!("bearing.groove.{name}");
-            let is_given = self.entries.contains_key(path.as_str());
-            if own.contains(&name) && !is_given {
-                let error = self.error(
-                    "bearing.groove.kind",
-                    format!("a groove of kind {kind} needs `{name}`"),
-                );
-                errors.push(error.of_key(&path).allowing(own.join(", ")));
-            }
-            if is_given && !own.contains(&name) {
-                let message = format!("a groove of kind {kind} has no `{name}`");
-                errors.push(self.error(&path, message).allowing(own.join(", ")));
-            }
-        }
-        if errors.is_empty() {
-            Ok(())
-        } else {
-            Err(errors)
-        }
-    }
-
-    fn shape(&self, kind: &str) -> Result<FeedShape, Refused> {
-        Ok(match kind {
-            "hole" => FeedShape::Hole {
-                diameter: self.number("bearing.groove.diameter")?,
-            },
-            "circumferential" => FeedShape::Circumferential {
-                width: self.number("bearing.groove.width")?,
-            },
-            _ => FeedShape::Rectangle {
-                length: self.number("bearing.groove.length")?,
-                width: self.number("bearing.groove.width")?,
-            },
-        })
-    }
-
-    /// Where the groove does not fit the bearing.
-    fn misfits(&self, feed: &Feed) -> Vec<InputError> {
-        let mut errors = Vec::new();
-        let bearing = self.bearing;
-        let limit = format!("less than the bearing width, {} mm", mm(bearing.width));
-        let extent = match feed.shape {
-            FeedShape::Hole { diameter } => {
-                if diameter >= bearing.width.min(bearing.diameter) {
-                    let error = self.error(
-                        "bearing.groove.diameter",
-                        "the hole is wider than the bearing",
-                    );
-                    errors.push(error.allowing(limit));
-                }
-                diameter
-            }
-            FeedShape::Rectangle { length, width } => {
-                if length >= PI * bearing.diameter {
-                    let error = self.error(
-                        "bearing.groove.length",
-                        "the groove is longer than the circumference",
-                    );
-                    errors.push(error.hinting("kind = \"circumferential\" runs all around"));
-                }
-                if width > bearing.width {
-                    let error = self.error(
-                        "bearing.groove.width",
-                        "the groove is wider than the bearing",
-                    );
-                    errors.push(error.allowing(format!("at most {} mm", mm(bearing.width))));
-                }
-                width
-            }
-            FeedShape::Circumferential { width } => {
-                if width >= bearing.width {
-                    let error = self.error(
-                        "bearing.groove.width",
-                        "the groove leaves no bearing surface",
-                    );
-                    errors.push(error.allowing(limit));
-                }
-                width
-            }
-        };
-        let edge = 0.5 * (bearing.width + extent);
-        if errors.is_empty() && feed.position.abs() >= edge {
-            let error = self.error(
-                "bearing.groove.position",
-                "the groove lies wholly outside the bearing",
-            );
-            errors.push(error.allowing(format!("less than {} mm from the mid-plane", mm(edge))));
-        }
-        if feed.pressure < bearing.cavitation_pressure {
-            errors.push(self.error(
-                "bearing.groove.pressure",
-                "the feed pressure is below the cavitation pressure",
-            ));
-        }
-        errors
-    }
-}
-
-/// Metres as millimetres for messages, without round-off tails.
-fn mm(metres: f64) -> f64 {
-    (metres * 1e9).round() / 1e6
 }

@@ -11,14 +11,13 @@ use sommerfeld_bearing::{CycleTilt, LoadCycle};
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
 use std::f64::consts::PI;
-use std::path::Path;
 
 /// Largest number of steps in a period that is taken for an answer to a question.
 const MOST_STEPS: f64 = 200_000.0;
 
 impl Checker<'_> {
     /// What is calculated; `None` where an error says why not.
-    pub(super) fn subject(&mut self, directory: &Path) -> Option<Subject> {
+    pub(super) fn subject(&mut self) -> Option<Subject> {
         if self.mode == Mode::Dimensionless {
             return self.dimensionless().map(Subject::Dimensionless);
         }
@@ -27,9 +26,7 @@ impl Checker<'_> {
         let lubricant = temperature.and_then(|temperature| self.lubricant(temperature));
         let duty = match self.mode {
             Mode::Film => self.journal_state(bearing.as_ref()).map(Duty::State),
-            Mode::LoadCycle => self
-                .load_cycle(directory, bearing.as_ref())
-                .map(Duty::Cycle),
+            Mode::LoadCycle => self.load_cycle(bearing.as_ref()).map(Duty::Cycle),
             _ => self.steady_load(bearing.as_ref()).map(Duty::Load),
         };
         Some(Subject::Bearing(BearingCase {
@@ -234,7 +231,7 @@ impl Checker<'_> {
         }
     }
 
-    fn load_cycle(&mut self, directory: &Path, bearing: Option<&Bearing>) -> Option<CycleDuty> {
+    fn load_cycle(&mut self, bearing: Option<&Bearing>) -> Option<CycleDuty> {
         let number = |name: &str| self.number(&format!("load_cycle.{name}"));
         let settings = CycleSettings {
             engine_speed: number("engine_speed")?,
@@ -247,7 +244,8 @@ impl Checker<'_> {
             return None;
         };
         let name = self.text("load_cycle.file")?;
-        let table = self.load_table(directory, &name, &settings)?;
+        let mut table = self.load_table(&name, &settings)?;
+        table.cycle.feed_pressures = std::mem::take(&mut self.feed_cycles);
         self.warnings.extend(table.warnings);
         self.check_cycle_tilt(&table.cycle, bearing);
         Some(CycleDuty {
@@ -315,13 +313,12 @@ impl Checker<'_> {
 
     fn load_table(
         &mut self,
-        directory: &Path,
         name: &str,
         settings: &CycleSettings,
     ) -> Option<crate::input::load_file::LoadTable> {
         let named_at = self.error_at("load_cycle.file", "");
-        let (file, text) = self.table_text(directory, name, "load table", named_at)?;
-        match read_load_table(&file, &text, settings) {
+        let table = self.table_text(name, "load table", named_at)?;
+        match read_load_table(&table.file, &table.text, settings) {
             Ok(table) => Some(table),
             Err(errors) => {
                 self.errors.extend(errors);

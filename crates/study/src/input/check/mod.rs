@@ -2,6 +2,7 @@
 
 mod bearing;
 mod duty;
+mod grooves;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};
@@ -12,6 +13,7 @@ use super::study::{
     Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
 use super::values::{Value, default_value};
+use sommerfeld_bearing::PressureCycle;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -34,10 +36,12 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         warnings: Vec::new(),
         table_bytes: Vec::new(),
         files: vec![PathBuf::from(file)],
+        feed_cycles: Vec::new(),
+        directory,
     };
     checker.report_missing();
     checker.report_unused();
-    let subject = checker.subject(directory);
+    let subject = checker.subject();
     let film = checker.film_settings();
     let rotor = checker.rotor();
     let limits = checker.limits();
@@ -48,6 +52,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         // Every value is there or an error says why not.
         return Err(InputError::new(file, "the study is incomplete").into());
     };
+    let input_hash = input_hash(&[text.as_bytes(), &checker.table_bytes]);
     Ok(Study {
         title: checker.text("title").unwrap_or_default(),
         analysis: analysis(mode),
@@ -59,7 +64,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         file: file.to_owned(),
         files: checker.files,
         text: text.to_owned(),
-        input_hash: input_hash(&[text.as_bytes(), &checker.table_bytes]),
+        input_hash,
     })
 }
 
@@ -139,6 +144,10 @@ struct Checker<'t> {
     table_bytes: Vec<u8>,
     /// The study file and the tables it names.
     files: Vec<PathBuf>,
+    /// Supply pressures over the crank angle.
+    feed_cycles: Vec<PressureCycle>,
+    /// Where the files of the study lie.
+    directory: &'t Path,
 }
 
 impl Checker<'_> {
@@ -259,56 +268,70 @@ impl Checker<'_> {
         }
     }
 
-    /// Reads a table that the study names, its path relative to the study: the path as messages
-    /// show it, and its text. `what` is the kind of table, `named_at` an error at its name.
-    fn table_text(
-        &mut self,
-        directory: &Path,
+    /// Reads a table that the study names for the hash; `what` is the kind of table, `named_at` an
+    /// error at its name.
+    fn table_text(&mut self, name: &str, what: &str, named_at: InputError) -> Option<NamedTable> {
+        match self.named_table(name, what, named_at) {
+            Ok(table) => {
+                self.take_in(&table);
+                Some(table)
+            }
+            Err(error) => {
+                self.errors.push(*error);
+                None
+            }
+        }
+    }
+
+    /// A table that was used is part of the study.
+    fn take_in(&mut self, table: &NamedTable) {
+        self.table_bytes.extend_from_slice(table.text.as_bytes());
+        self.files.push(table.path.clone());
+    }
+
+    fn named_table(
+        &self,
         name: &str,
         what: &str,
         named_at: InputError,
-    ) -> Option<(String, String)> {
-        let path = directory.join(name);
-        let refuse = |why: &str, hint: String| InputError {
-            message: format!("the {what} cannot be used: {why}"),
-            hint: Some(hint),
-            ..named_at.clone()
+    ) -> Result<NamedTable, Box<InputError>> {
+        let path = self.directory.join(name);
+        let refuse = |why: &str, hint: String| {
+            Box::new(InputError {
+                message: format!("the {what} cannot be used: {why}"),
+                hint: Some(hint),
+                ..named_at.clone()
+            })
         };
         let same_file = |other: &Path| {
             let real = std::fs::canonicalize(&path);
             matches!((real, std::fs::canonicalize(other)), (Ok(a), Ok(b)) if a == b)
         };
-        let error = if name.trim().is_empty() {
-            refuse(
-                "it has no name",
-                "give the path of a CSV file, relative to the study".into(),
-            )
-        } else if same_file(Path::new(self.reading.file)) {
-            refuse(
-                "it is the study itself",
-                "give the path of a CSV file".into(),
-            )
-        } else {
-            match read_text(&path, TABLE_CAP) {
-                Ok(text) => {
-                    self.table_bytes.extend_from_slice(text.as_bytes());
-                    self.files.push(path.clone());
-                    return Some((path.to_string_lossy().into_owned(), text));
-                }
-                // What is wrong inside the file is shown there.
-                Err(error) if error.place.is_some() => *error,
-                Err(error) => {
-                    let shown: String = path.to_string_lossy().chars().take(300).collect();
-                    let looked = format!("it was looked for at {shown}");
-                    InputError {
-                        allowed: error.allowed,
-                        ..refuse(&error.message, error.hint.unwrap_or(looked))
-                    }
-                }
+        if name.trim().is_empty() {
+            let hint = "give the path of a CSV file, relative to the study";
+            return Err(refuse("it has no name", hint.into()));
+        }
+        if same_file(Path::new(self.reading.file)) {
+            let hint = "give the path of a CSV file";
+            return Err(refuse("it is the study itself", hint.into()));
+        }
+        match read_text(&path, TABLE_CAP) {
+            Ok(text) => Ok(NamedTable {
+                file: path.to_string_lossy().into_owned(),
+                path,
+                text,
+            }),
+            // What is wrong inside the file is shown there.
+            Err(error) if error.place.is_some() => Err(error),
+            Err(error) => {
+                let shown: String = path.to_string_lossy().chars().take(300).collect();
+                let looked = format!("it was looked for at {shown}");
+                let allowed = error.allowed.clone();
+                let mut refused = refuse(&error.message, error.hint.unwrap_or(looked));
+                refused.allowed = allowed;
+                Err(refused)
             }
-        };
-        self.errors.push(error);
-        None
+        }
     }
 
     fn film_model(&self) -> Option<FilmModel> {
@@ -363,6 +386,14 @@ impl Checker<'_> {
             })
             .collect()
     }
+}
+
+/// A table that a study names.
+struct NamedTable {
+    /// Its path, relative to the study, as messages show it.
+    file: String,
+    path: PathBuf,
+    text: String,
 }
 
 /// The value of a key among some entries, or its default.
