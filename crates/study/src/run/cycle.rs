@@ -108,10 +108,10 @@ impl<'a> CycleWatch<'a> {
         stage: Progress,
         progress: &mut ProgressCallback<'_>,
     ) -> ControlFlow<()> {
-        if let Some(field) = film.field() {
-            if !self.fields.see(stage, point, &field) {
-                return ControlFlow::Break(());
-            }
+        if let Some(field) = film.field()
+            && !self.fields.see(stage, point, &field)
+        {
+            return ControlFlow::Break(());
         }
         self.feed_flows.push(film.feed_flows().to_vec());
         let label = format!("cycle {}", stage.cycle);
