@@ -375,6 +375,7 @@ fn misuse(reason: String) -> io::Error {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 mod tests {
     use super::*;
     use std::io::Cursor;

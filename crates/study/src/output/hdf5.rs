@@ -109,6 +109,9 @@ struct Layout<W> {
 /// Axes of fields in the order of their dimensions: name, unit, values.
 type Axis<'a> = (&'a str, &'a str, Vec<f64>);
 
+/// Takes the field of a quantity at the instant of this number.
+type ReadInstant<'a> = dyn FnMut(Quantity, usize, &mut [f32]) -> io::Result<()> + 'a;
+
 impl<W: Write + Seek> Layout<W> {
     fn header(&mut self, header: &Header) {
         let root = self.file.root();
@@ -328,7 +331,7 @@ impl<W: Write + Seek> Layout<W> {
         crank_angles: &[f64],
         angles: &[f64],
         axial: &[f64],
-        read: &mut dyn FnMut(Quantity, usize, &mut [f32]) -> io::Result<()>,
+        read: &mut ReadInstant<'_>,
     ) -> io::Result<()> {
         if crank_angles.is_empty() {
             return Ok(());

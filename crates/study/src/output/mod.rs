@@ -234,6 +234,21 @@ mod tests {
     }
 
     #[test]
+    fn what_fails_half_way_leaves_what_was_there() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("results.h5");
+        replace_file(&path, b"old").unwrap();
+        let fails = |file: &mut BufWriter<&fs::File>| {
+            file.write_all(b"half")?;
+            Err(io::Error::other("no space left"))
+        };
+        let error = replace_with(&path, fails).unwrap_err();
+        assert!(error.to_string().contains("no space left"));
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+
+    #[test]
     fn a_failed_disk_names_the_file() {
         let error = replace_file(Path::new("/nonexistent/summary.json"), b"{}").unwrap_err();
         assert!(error.to_string().contains("/nonexistent/summary.json"));

@@ -135,10 +135,10 @@ impl<'a> CycleWatch<'a> {
         stage: Progress,
         progress: &mut ProgressCallback<'_>,
     ) -> ControlFlow<()> {
-        if let Some(field) = film.field() {
-            if !self.fields.see(stage, point, &field) {
-                return ControlFlow::Break(());
-            }
+        if let Some(field) = film.field()
+            && !self.fields.see(stage, point, &field)
+        {
+            return ControlFlow::Break(());
         }
         for request in &mut self.requests {
             let apart = (point.crank_angle - request.crank_angle).rem_euclid(self.period);

@@ -199,6 +199,7 @@ fn between(centres: &[f64], angle: f64) -> (usize, usize, f64) {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 mod tests {
     use super::*;
     use sommerfeld_film::{FilmSummary, JournalState, Outcome, Reaction};
@@ -224,7 +225,7 @@ mod tests {
                 see(&mut recorder, cycle, index, turned, speed, journal_speed);
             }
         }
-        recorder.finish().expect("fields were shown")
+        recorder.finish().unwrap()
     }
 
     fn see(
