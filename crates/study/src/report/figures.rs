@@ -17,7 +17,7 @@ const CURVE_POINTS: usize = 1500;
 const MAP_CELLS: usize = 400;
 
 /// A number for drawing: six significant digits, `null` where it is not finite.
-fn short(value: f64) -> Value {
+pub(super) fn short(value: f64) -> Value {
     let text = format!("{value:.5e}");
     json!(text.parse::<f64>().ok().filter(|value| value.is_finite()))
 }

@@ -7,6 +7,7 @@
 mod cycle;
 mod cycle_tables;
 mod dimensionless;
+mod dynamics;
 mod figures;
 mod format;
 mod page;

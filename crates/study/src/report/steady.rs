@@ -1,11 +1,11 @@
 //! The report of one state of the journal: position, load and force, pressure, results.
 
 use super::cycle::map_figures;
-use super::figures;
-use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
+use super::format::{MICROMETRE, MILLIRADIAN, ONE, Unit, Units, angle, significant, size};
 use super::page::{
     Card, Cell, Figure, Page, Table, badge, checks, error, last_iterates, limit_cells,
 };
+use super::{dynamics, figures};
 use crate::limits::Quantity;
 use crate::results::{Header, SteadyResults, degrees, degrees_around, magnitude, place};
 use serde_json::{Value, json};
@@ -26,8 +26,11 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
         _ => "tall",
     };
     page.tables.extend(beside);
+    page.tables.extend(dynamics::tables(steady));
+    page.figures.extend(dynamics::figure(steady));
     json!({
         "units": figures::unit_symbols(&units),
+        "stability": dynamics::chart_data(steady),
         "position": figures::position_data(steady, &units),
         "field": steady.field.as_ref().map(|field| {
             figures::field_data(field, &steady.bearing, &steady.state, &steady.summary, &units)
@@ -261,6 +264,12 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
     if let Some(attitude) = steady.attitude_angle() {
         let text = angle(degrees(attitude));
         rows.push(plain("Attitude angle", text, "attitude_angle_deg"));
+    }
+    if steady.state.tilt != [0.0; 2] {
+        let tilt = pair(MILLIRADIAN, steady.state.tilt);
+        rows.push(plain("Tilt x, y", tilt, ""));
+        let edges = pair(film, summary.edge_film_thickness);
+        rows.push(plain("Film at the front, rear edge", edges, ""));
     }
     rows.extend([
         in_unit(

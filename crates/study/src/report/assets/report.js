@@ -327,6 +327,17 @@
     tilt: () => curves([line(cycle.angle, cycle.tilt_x, "about x", "first"),
       line(cycle.angle, cycle.tilt_y, "about y", "second", { line: { color: theme.second, width: 1.5, dash: "dash" } })],
     "Tilt [mrad]", crankAxis()),
+    stability: () => {
+      const chart = data.stability;
+      const lines = limitLines(chart.rotor === null ? [] : [{ value: chart.rotor, label: "rotor" }]);
+      const marks = chart.onsets.map((onset) => ({ type: "line", yref: "paper", y0: 0, y1: 1, x0: onset.speed, x1: onset.speed,
+        line: { color: theme.second, width: 1.2, dash: "dot" } }));
+      const labels = chart.onsets.map((onset) => ({ yref: "paper", y: 1, yanchor: "top", x: onset.speed, xanchor: "left",
+        text: onset.label, showarrow: false, font: { color: theme.second } }));
+      return curves([line(chart.speed, chart.mass, "threshold mass", "first", { mode: "lines+markers" })],
+        "Threshold mass [kg]", axis("Journal speed [rpm]"),
+        { shapes: [...lines.shapes, ...marks], annotations: [...lines.annotations, ...labels] });
+    },
     "middle-pressure": () => curves([line(field.angle, field.middle_pressure, "film pressure", "first")],
       withUnit("Film pressure", units.pressure), bearingAxis()),
     "middle-thickness": () => curves([
