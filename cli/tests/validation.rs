@@ -29,6 +29,47 @@ fn short_bearing_rotor() {
     assert!((number(&summary, "attitude_angle_deg") - attitude).abs() < 1e-3);
 }
 
+/// Rigid rotors after validation/whirl-threshold, as studies: mass and whirl ratio of the threshold within
+/// 0.1 %, the rotor stable at 0.97 and unstable at 1.03 of it, and the onset over speed at its speed.
+#[test]
+fn whirl_threshold() {
+    let table = Table::read(&root().join("validation/whirl-threshold/reference.csv"));
+    let (width, diameter, clearance) = (0.02, 0.05, 25e-6);
+    let (viscosity, speed) = (0.01, 300.0);
+    for row in &table.rows {
+        let column = |index: usize| row[index].parse::<f64>().unwrap();
+        // Ss = eta D omega B^3/(8 c^2 W), omega_bar = omega sqrt(M c/W).
+        let load: f64 = viscosity * diameter * speed * f64::powi(width, 3)
+            / (8.0 * clearance * clearance * column(1));
+        let mass = (column(12) / speed).powi(2) * load / clearance;
+        let study = |share: f64| {
+            format!(
+                "schema = 1\nanalysis = \"coefficients\"\n[bearing]\ndiameter = \"{diameter} m\"\n\
+                 width = \"{width} m\"\ndiametral_clearance = \"{} m\"\n[oil]\nviscosity = \
+                 \"{viscosity} Pa.s\"\n[film]\nmodel = \"short-bearing\"\n[operation]\nspeed = \
+                 \"{speed} rad/s\"\nload = [\"{load} N\", \"0 N\"]\nrotor_mass = \"{} kg\"\n\
+                 speeds = [\"200 rad/s\", \"280 rad/s\", \"350 rad/s\"]\n",
+                2.0 * clearance,
+                share * mass
+            )
+        };
+        for share in [0.97_f64, 1.03] {
+            // The threshold is a speed at a given mass; at a given speed it is a mass with its square.
+            let summary = run_text(&study(share * share), "").converged().summary();
+            let found = number(&summary, "whirl_threshold_mass_kg");
+            assert!((found / mass - 1.0).abs() < 2e-3, "{row:?}: {found} {mass}");
+            let ratio = number(&summary, "whirl_ratio");
+            assert!((ratio / column(11) - 1.0).abs() < 1e-3, "{row:?}: {ratio}");
+            assert_eq!(summary["stable"], share < 1.0, "{row:?}");
+            let margin = number(&summary, "stability_margin");
+            assert!((margin * share * share - found / mass).abs() < 1e-9);
+        }
+        let summary = run_text(&study(1.0), "").converged().summary();
+        let onset = number(&summary["whirl_onsets"][0], "journal_speed_rad_s");
+        assert!((onset / speed - 1.0).abs() < 1e-3, "{row:?}: {onset}");
+    }
+}
+
 /// The study of a row of the tilted table.
 fn dimensionless(row: &[String]) -> String {
     let right_side = match row[7].as_str() {

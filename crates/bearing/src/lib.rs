@@ -17,7 +17,9 @@ mod time_step;
 pub use balance::IterationRow;
 pub use coefficients::{Coefficients, instant_coefficients};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
-pub use load_cycle::{CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle};
+pub use load_cycle::{
+    CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle, closing_edge,
+};
 pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
 pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
 pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};

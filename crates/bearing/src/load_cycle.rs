@@ -142,6 +142,17 @@ pub struct JournalOrbit {
     pub outcome: Outcome,
 }
 
+/// The edge that a tilt has all but closed: 0 the front (z = -B/2), 1 the rear (z = +B/2). `films` are
+/// the film thicknesses there, m.
+#[must_use]
+pub fn closing_edge(films: [f64; 2], radial_clearance: f64) -> Option<usize> {
+    /// Share of the clearance below which an edge counts as closing where no balance is found.
+    const CLOSING: f64 = 0.01;
+    let edge = usize::from(films[1] < films[0]);
+    let is_tilted = films[edge] < 0.5 * films[1 - edge];
+    (is_tilted && films[edge] < CLOSING * radial_clearance).then_some(edge)
+}
+
 impl JournalOrbit {
     /// Mean over the cycle of any value of its points (trapezoidal rule; equal crank steps).
     #[must_use]
@@ -185,6 +196,21 @@ impl JournalOrbit {
     #[must_use]
     pub fn mean_eccentricity(&self) -> f64 {
         self.mean(|point| point.state.eccentricity())
+    }
+
+    /// The first point that did not converge because the moment presses an edge of a freely tilting
+    /// journal to contact, with that edge: 0 the front (z = -B/2), 1 the rear (z = +B/2). As an edge
+    /// closes, the area that carries it shrinks faster than its pressure grows: the moment of a film
+    /// between rigid surfaces is bounded, and beyond it the edge touches.
+    #[must_use]
+    pub fn edge_contact(&self, cycle: &LoadCycle, radial_clearance: f64) -> Option<(f64, usize)> {
+        if cycle.tilt != CycleTilt::Free {
+            return None;
+        }
+        let failed = |point: &&CyclePoint| point.outcome != Outcome::Converged;
+        let point = self.points.iter().find(failed)?;
+        let edge = closing_edge(point.summary.edge_film_thickness, radial_clearance)?;
+        Some((point.crank_angle, edge))
     }
 
     /// Smallest film thickness over the cycle, m, with its place and its crank angle (rad).

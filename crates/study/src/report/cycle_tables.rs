@@ -1,6 +1,7 @@
 //! Tables of a load cycle: extremes with limits, means, convergence, points that failed.
 
 use super::cycle::side_flow;
+use super::dynamics;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
 use crate::limits::Quantity;
@@ -49,6 +50,7 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
     ];
     tables.extend(feeds(cycle, units));
     tables.extend(oil_hole_rows(cycle, units));
+    tables.extend(dynamics::instants(cycle));
     tables.extend(not_converged_rows(cycle));
     tables
 }
@@ -118,7 +120,7 @@ fn peaks<'a>(cycle: &'a CycleResults, units: &'a Units) -> Vec<Peak<'a>> {
     let heaviest = cycle.maximum_load();
     let loss = cycle.largest(|p| p.summary.power_loss());
     let torque = cycle.largest(|p| p.reaction.friction_torque_journal);
-    vec![
+    let mut peaks = vec![
         Peak {
             label: "Minimum film thickness",
             point: cycle.minimum_film_thickness(),
@@ -163,7 +165,25 @@ fn peaks<'a>(cycle: &'a CycleResults, units: &'a Units) -> Vec<Peak<'a>> {
             torque,
             Box::new(|p| units.torque.show(p.reaction.friction_torque_journal)),
         ),
-    ]
+    ];
+    if cycle.is_tilted() {
+        for (edge, label) in [
+            "Minimum film at the front edge",
+            "Minimum film at the rear edge",
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let value = move |p: &CyclePoint| MICROMETRE.show(p.summary.edge_film_thickness[edge]);
+            peaks.push(plain(label, cycle.thinnest_edge(edge), Box::new(value)));
+        }
+        peaks.push(plain(
+            "Maximum moment on the journal",
+            cycle.largest(|p| magnitude(p.moment)),
+            Box::new(|p| units.torque.show(magnitude(p.moment))),
+        ));
+    }
+    peaks
 }
 
 fn extremes(header: &Header, cycle: &CycleResults, units: &Units) -> Table {

@@ -8,6 +8,7 @@ mod chart;
 mod cycle;
 mod cycle_tables;
 mod dimensionless;
+mod dynamics;
 mod figures;
 mod film;
 mod format;

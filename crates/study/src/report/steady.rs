@@ -1,13 +1,13 @@
 //! The report of one state of the journal: position, load and force, pressure, results.
 
 use super::cycle_tables::{BALANCE_NOTE, REYNOLDS_NOTE, feed_name, reynolds_row};
-use super::figures;
 use super::film::{self, Instant, in_film};
-use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
+use super::format::{MICROMETRE, MILLIRADIAN, ONE, Unit, Units, angle, significant, size};
 use super::page::{
     Card, Cell, Figure, Page, Section, Table, badge, checks, error, exact, last_iterates,
     limit_cells, subject,
 };
+use super::{dynamics, figures};
 use crate::limits::Quantity;
 use crate::regime::FlowRegime;
 use crate::results::{FieldSnapshot, Header, SteadyResults, degrees, degrees_around, magnitude};
@@ -47,8 +47,11 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
         _ => "tall",
     };
     page.tables.extend(beside);
+    page.tables.extend(dynamics::tables(steady));
+    page.sections.extend(dynamics::section(steady));
     json!({
         "units": figures::unit_symbols(&units),
+        "stability": dynamics::chart_data(steady),
         "position": figures::position_data(steady, &units),
         "film": film::film_data(&steady.bearing, &instant, &units),
         "middle": steady.field.as_ref().map(|field| film::middle_data(field, &units)),
@@ -289,6 +292,12 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
     if let Some(attitude) = steady.attitude_angle() {
         let text = angle(degrees(attitude));
         rows.push(plain("Attitude angle", text, "attitude_angle_deg"));
+    }
+    if steady.state.tilt != [0.0; 2] {
+        let tilt = pair(MILLIRADIAN, steady.state.tilt);
+        rows.push(plain("Tilt x, y", tilt, ""));
+        let edges = pair(film, summary.edge_film_thickness);
+        rows.push(plain("Film at the front, rear edge", edges, ""));
     }
     rows.extend([
         in_unit(

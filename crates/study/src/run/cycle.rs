@@ -1,7 +1,7 @@
 //! A load cycle: the orbit, and what its points do not hold.
 
 use super::record::FieldRecorder;
-use super::{ProgressCallback, conditions, film_of, note_outcome};
+use super::{ProgressCallback, conditions, film_of, note_edge_contact, note_outcome};
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, CycleResults, Header, InstantCoefficients};
@@ -70,6 +70,11 @@ pub(super) fn solve_cycle(
         &mut |point, film, stage| watch.see(point, film, stage, progress),
     )?;
     note_outcome(orbit.outcome, header);
+    let contact = orbit.edge_contact(&duty.cycle, case.bearing.radial_clearance);
+    if let Some((crank_angle, edge)) = contact {
+        let at = format!("at crank angle {:.1} deg", crank_angle.to_degrees());
+        note_edge_contact(edge, &at, header);
+    }
     if watch.stopped {
         header.messages.insert(
             0,

@@ -309,6 +309,17 @@ fn solve_paper(
     }))
 }
 
+/// Says that no tilt of the journal balances its moment.
+fn note_edge_contact(edge: usize, at: &str, header: &mut Header) {
+    let name = ["front (z = -B/2)", "rear (z = +B/2)"][edge];
+    let message = format!(
+        "edge contact: {at} the moment presses the {name} edge of the journal to contact, a film \
+         between rigid surfaces carries no such moment there; give a smaller moment, a wider \
+         bearing or a smaller clearance, or prescribe the tilt"
+    );
+    header.messages.insert(0, message);
+}
+
 /// Sets the status and says what it means and what to do.
 fn note_outcome(outcome: Outcome, header: &mut Header) {
     header.status = outcome;

@@ -1,12 +1,12 @@
 //! One state of the journal: given, or found as the equilibrium under a load.
 
-use super::{ProgressCallback, conditions, film_of, note_outcome};
+use super::{ProgressCallback, conditions, film_of, note_edge_contact, note_outcome};
 use crate::input::{Analysis, BearingCase, FilmSettings, SteadyLoad, Study, TiltCondition};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, Dynamics, FieldSnapshot, Header, SteadyResults, status_name};
 use sommerfeld_bearing::{
     Coefficients, Equilibrium, EquilibriumRequest, EquilibriumSettings, Stability, StabilityChart,
-    find_equilibrium, rotor_stability, stability_chart,
+    closing_edge, find_equilibrium, rotor_stability, stability_chart,
 };
 use sommerfeld_film::{
     Bearing, Extreme, FilmError, FilmForce, FilmSolver, FilmSummary, Inlet, JournalState,
@@ -68,6 +68,11 @@ pub(super) fn solve_load(
     };
     let found = find_equilibrium(film.as_mut(), &case.bearing, &request, &conditions(case))?;
     note_outcome(found.outcome, header);
+    let edges = case.bearing.edge_film_thickness(&found.state);
+    let closing = closing_edge(edges, case.bearing.radial_clearance);
+    if let (Outcome::NotConverged, Some(_), Some(edge)) = (found.outcome, moment, closing) {
+        note_edge_contact(edge, "under this load", header);
+    }
     let answer = Linearised {
         reaction: found.reaction,
         tangent: found.tangent,

@@ -2,7 +2,7 @@
 // Curves over crank angle or bearing angle.
 ((report) => {
   const { theme, axis, layout, withUnit, bearingAxis, drawings } = report;
-  const { cycle, middle, units, charts } = report.data;
+  const { cycle, middle, units, charts, stability } = report.data;
 
   const dashes = ["solid", "dash", "dot", "dashdot", "longdash"];
   const colours = ["first", "second", "third", "soft", "bad"];
@@ -103,6 +103,18 @@
         withUnit("Load", units.force), crankAxis()),
       tilt: () => curves(over(["about x", cycle.tilt_x], ["about y", cycle.tilt_y]), "Tilt [mrad]", crankAxis()),
     });
+  }
+  if (stability) {
+    drawings.stability = () => {
+      const rotor = limitLines(stability.rotor === null ? [] : [{ value: stability.rotor, label: "rotor" }]);
+      const onsets = stability.onsets.map((onset) => ({ type: "line", yref: "paper", y0: 0, y1: 1, x0: onset.speed,
+        x1: onset.speed, line: { color: theme.second, width: 1.2, dash: "dot" } }));
+      const labels = stability.onsets.map((onset) => ({ yref: "paper", y: 1, yanchor: "top", x: onset.speed,
+        xanchor: "left", text: onset.label, showarrow: false, font: { color: theme.second } }));
+      return curves([line(stability.speed, stability.mass, "threshold mass", 0, { mode: "lines+markers" })],
+        "Threshold mass [kg]", axis("Journal speed [rpm]"),
+        { shapes: [...rotor.shapes, ...onsets], annotations: [...rotor.annotations, ...labels] });
+    };
   }
   if (middle) {
     const { angles, turn } = report.cut(middle.angle, report.seam);
