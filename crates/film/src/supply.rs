@@ -2,7 +2,11 @@
 //!
 //! Cells whose centre lies inside the outline of a groove or hole are fed; a hole smaller than a cell
 //! feeds the cell it lies in. What the journal carries turns with it. What the outline gives or takes
-//! is read from the balance of its cells.
+//! is read from the balance of its cells. Grid faces lie on the edges of grooves, so that their flow is
+//! of second order. A hole follows no face: its cells are more or fewer with its place, and so is its
+//! flow. A hole of 6 mm in a concentric bearing D 72, B 30 mm deviates from the closed form by up to
+//! 16 % on 64 x 16 cells, 2 % on 128 x 32 and 3 % on 256 x 64; one of 3 mm by up to 12 % on 128 x 32
+//! (`tests/groove_flow.rs`). Averaged over the places a turning hole passes it is less.
 //!
 //! Where outlines overlap, a hole opens into a groove:
 //! - one of the two behind a line with a resistance: both are ONE POCKET with one pressure, their

@@ -3,14 +3,18 @@
 
 mod common;
 
+use common::planar::Planar;
 use common::recomputed::{Past, recompute};
 use common::{big_end, conditions, oil};
+use sommerfeld_film::cavitation::model_of;
+use sommerfeld_film::gap::Gap;
+use sommerfeld_film::reynolds::{Around, Cell, Storage};
 use sommerfeld_film::supply::drilling_head;
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedFlow, FeedLine, FeedShape, FilmForce,
-    FilmSolver, JournalState, Step,
+    Bearing, Carrier, Cavitation, Feed, FeedFlow, FeedLine, FeedShape, FilmForce, FilmSolver,
+    JournalState, Step,
 };
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// Of the oil in [`oil`].
 const VISCOSITY: f64 = 8e-3;
@@ -93,13 +97,13 @@ fn lands(eps: f64) -> f64 {
     2.0 * land * (1.0 + 1.5 * eps * eps)
 }
 
-/// Concentric the pressure falls in straight lines, which cells reproduce: round-off alone is left.
-/// Eccentric, the mean of h^3 around is one of equal angles: exact up to round-off, too; but the
-/// pressure flows around as well, and the sum of cells answers to second order: bar 1e-4 at 128 cells.
+/// The mean of h^3 p around falls in straight lines over the lands, which cells reproduce: what is left
+/// is round-off.
 #[test]
 fn circumferential_groove_at_rest() {
     for cavitation in CLOSURES {
-        for (eps, bar) in [(0.0, 1e-10), (0.3, 1e-4), (0.6, 1e-4), (0.9, 1e-4)] {
+        for eps in [0.0, 0.3, 0.6, 0.9] {
+            let bar = 1e-10;
             let bearing = Bearing {
                 cavitation,
                 ..with(vec![circumferential()])
@@ -134,12 +138,12 @@ fn edges_share_by_their_lands() {
     assert!((rear * (LAND - off) / one - 1.0).abs() < 1e-10, "{rear}");
 }
 
-/// Line and lands in series: `q = p / (R_line + R_lands)`, at rest and, through the mean of h^3,
-/// eccentric; round-off concentric.
+/// Line and lands in series: `q = p / (R_line + R_lands)`, to round-off.
 #[test]
 fn a_line_in_series_with_the_lands() {
     for cavitation in CLOSURES {
-        for (eps, bar) in [(0.0, 1e-10), (0.6, 1e-4)] {
+        for eps in [0.0, 0.6] {
+            let bar = 1e-10;
             for share in [1e-3, 0.5, 1.0, 30.0] {
                 let film = 1.0 / lands(eps);
                 let bearing = Bearing {
@@ -163,21 +167,214 @@ fn hole_flow(bearing: &Bearing, radius: f64) -> f64 {
     TAU * conducts * PRESSURE / (2.0 * bearing.width / (PI * radius)).ln()
 }
 
+/// The hole is the cells whose centre it covers: its area, and with it the flow, jumps with its place
+/// between the cells. The bars are what `supply.rs` states, worst of nine places.
 #[test]
 fn hole_at_rest() {
-    for grid in [[64, 16], [128, 32], [256, 64], [512, 128]] {
-        for diameter in [3e-3, 6e-3, 9e-3] {
-            let mut worst = (f64::INFINITY, -f64::INFINITY);
-            for angle in [0.0, 0.011, 0.023, 0.034, 1.0, 2.0] {
-                let hole = Feed {
-                    angle,
-                    ..feed(FeedShape::Hole { diameter })
-                };
-                let found = flows(&with(vec![hole]), &at_rest(0.0), grid).feeds[0].flow;
-                let e = found / hole_flow(&big_end(), 0.5 * diameter) - 1.0;
-                worst = (worst.0.min(e), worst.1.max(e));
-            }
-            println!("{grid:?} {diameter}: {worst:?}");
+    let diameter = 6e-3;
+    let exact = hole_flow(&big_end(), 0.5 * diameter);
+    for (grid, bar) in [([64, 16], 0.20), ([128, 32], 0.05), ([256, 64], 0.03)] {
+        let mut worst = 0.0_f64;
+        for place in 0..9 {
+            let hole = Feed {
+                angle: 1.0 + 0.0123 * f64::from(place),
+                position: 1e-4 * f64::from(place % 3),
+                ..feed(FeedShape::Hole { diameter })
+            };
+            let found = flows(&with(vec![hole]), &at_rest(0.0), grid).feeds[0].flow;
+            worst = worst.max((found / exact - 1.0).abs());
+        }
+        println!("{grid:?}: worst {worst:.4} of {bar}");
+        assert!(worst < bar, "{grid:?}: {worst}");
+    }
+}
+
+/// Two axial grooves over the whole width of a ring without ends: one-dimensional flow around from the
+/// one at `p` to the other at 0, `q = p w / 12 eta (1/L_1 + 1/L_2)` with the integrals `L` of h^-3.
+#[test]
+fn axial_grooves_without_ends() {
+    // Lengths over the radius, gaps over the clearance, p in the operator's unit: no factor 12 eta.
+    for eps in [0.0, 0.5] {
+        let gap = |x: f64| 1.0 - eps * (x - 0.4).cos();
+        let n = 240;
+        let faces: Vec<f64> = (0..=n).map(|i| TAU * f64::from(i) / f64::from(n)).collect();
+        let closure = model_of(Cavitation::MassConserving);
+        let mut film = Planar::new(faces.clone(), Around::Periodic, closure);
+        let profile = Gap::from_profile(&film.grid, |x, _| gap(x), |_| 0.0);
+        for (cell, pressure) in [(20..40, 1.0), (140..160, 0.0)]
+            .into_iter()
+            .flat_map(|(cells, pressure)| cells.map(move |cell| (cell, pressure)))
+        {
+            film.set.cells[cell] = Cell::Fed;
+            film.set.fed_pressure[cell] = pressure;
+        }
+        film.solve(&profile, 0.0, Storage::Rate);
+        let flow: f64 = film.excess[20..40].iter().map(|excess| -excess).sum();
+        // Simpson's rule, far finer than the film.
+        let length = |from: f64, to: f64| {
+            let steps = 2000;
+            let width = (to - from) / f64::from(steps);
+            let sum: f64 = (0..=steps)
+                .map(|k| {
+                    let weight = match k {
+                        0 => 1.0,
+                        k if k == steps => 1.0,
+                        k if k % 2 == 1 => 4.0,
+                        _ => 2.0,
+                    };
+                    weight * gap(from + f64::from(k) * width).powi(-3)
+                })
+                .sum();
+            sum * width / 3.0
+        };
+        let exact = 1.0 / length(faces[40], faces[140]) + 1.0 / length(faces[160], TAU + faces[20]);
+        // h^-3 at the faces alone: second order in the 100 cells between the grooves.
+        let bar = if eps == 0.0 { 1e-10 } else { 1e-3 };
+        let deviation = (flow / exact - 1.0).abs();
+        println!("axial grooves, eps {eps}: {deviation:.2e} of {bar:e}");
+        assert!(deviation < bar, "{eps}: {deviation:e}");
+    }
+}
+
+/// A groove over part of the circumference, also across angle 0: lengthened, it takes the flow of the
+/// strip that is added, `2 l h^3 p / (12 eta b)`; what its ends take stays. Groove faces lie on the grid.
+#[test]
+fn arcs_grow_by_their_strip() {
+    let step = PI * big_end().diameter / 64.0;
+    let flow = |cells: f64, angle: f64| {
+        let arc = feed(FeedShape::Rectangle {
+            length: cells * step,
+            width: GROOVE,
+        });
+        let groove = Feed { angle, ..arc };
+        flows(&with(vec![groove]), &at_rest(0.0), [64, 20]).feeds[0].flow
+    };
+    let strip = lands(0.0) * PRESSURE / 64.0;
+    let added = flow(32.0, PI) - flow(24.0, PI);
+    assert!(
+        (added / (8.0 * strip) - 1.0).abs() < 1e-4,
+        "{added} {strip}"
+    );
+    for angle in [0.0, TAU - 0.5 * PI, 0.25 * PI] {
+        assert!((flow(32.0, angle) / flow(32.0, PI) - 1.0).abs() < 1e-9);
+    }
+}
+
+/// An axial groove where the film is ruptured without it: it cannot but take from its line.
+fn before_the_widest_gap() -> Feed {
+    Feed {
+        angle: 3.0,
+        ..feed(FeedShape::Rectangle {
+            length: 9e-3,
+            width: 15e-3,
+        })
+    }
+}
+
+/// Resistance to 0 is the groove without a line; a huge one lets nothing through.
+#[test]
+fn from_no_line_to_a_closed_one() {
+    let groove = before_the_widest_gap();
+    for cavitation in CLOSURES {
+        let solve = |feed: Feed| {
+            let bearing = Bearing {
+                cavitation,
+                ..with(vec![feed])
+            };
+            flows(&bearing, &turning(0.6), [64, 16])
+        };
+        let direct = solve(groove.clone());
+        for resistance in [0.0, 1e-4] {
+            let open = solve(behind(groove.clone(), resistance));
+            let [a, b] = [open.feeds[0], direct.feeds[0]];
+            assert!((a.flow / b.flow - 1.0).abs() < 1e-10, "{a:?} {b:?}");
+            assert!((a.pressure / b.pressure - 1.0).abs() < 1e-10);
+            let force = open.force[0].hypot(open.force[1]);
+            let off = (open.force[0] - direct.force[0]).hypot(open.force[1] - direct.force[1]);
+            assert!(off < 1e-10 * force);
+        }
+        let closed = solve(behind(groove.clone(), 1e20));
+        assert_eq!(closed.feeds[0].pressure, 0.0);
+        if cavitation == Cavitation::MassConserving {
+            assert!(closed.feeds[0].flow.abs() < 1e-9 * direct.feeds[0].flow);
         }
     }
+}
+
+/// A line too thin for what the film takes: it delivers what its whole pressure drives, the groove
+/// stands at cavitation pressure, and no oil is made.
+#[test]
+fn a_starved_line_is_the_limit() {
+    let resistance = 2e12;
+    let groove = behind(before_the_widest_gap(), resistance);
+    let found = flows(&with(vec![groove]), &turning(0.6), [64, 16]);
+    let limit = PRESSURE / resistance;
+    assert_eq!(found.feeds[0].pressure, 0.0);
+    assert!((found.feeds[0].flow / limit - 1.0).abs() < 1e-9);
+    let sum = recompute(&found.film, &turning(0.6), VISCOSITY, true, Past::None);
+    assert_eq!(sum.violations, 0);
+    assert!(sum.worst_cell < 1e-10 * sum.largest_flow);
+    let [front, rear] = found.side;
+    assert!(
+        ((front + rear) / limit - 1.0).abs() < 1e-6,
+        "{front} {rear}"
+    );
+}
+
+/// A hole that opens into a groove: behind lines both are one pocket, their lines parallel; two that
+/// hold their pressures without a line share cells, and the first listed holds those.
+#[test]
+fn overlapping_feeds() {
+    let hole = Feed {
+        carried_by: Carrier::Journal,
+        pressure: 2e5,
+        ..feed(FeedShape::Hole { diameter: 4e-3 })
+    };
+    let (film, line) = (1.0 / lands(0.0), 1.7e11);
+    let solve = |feeds: Vec<Feed>| flows(&with(feeds), &at_rest(0.0), [64, 20]).feeds;
+    let both = solve(vec![
+        behind(hole.clone(), line),
+        behind(circumferential(), 2.0 * line),
+    ]);
+    // Three branches meet: two lines and the film.
+    let left = (2e5 / line + PRESSURE / (2.0 * line)) / (1.0 / line + 0.5 / line + 1.0 / film);
+    for (feed, supply, line) in [(both[0], 2e5, line), (both[1], PRESSURE, 2.0 * line)] {
+        assert!(
+            (feed.pressure / left - 1.0).abs() < 1e-10,
+            "{feed:?} {left}"
+        );
+        assert!(
+            (feed.flow / ((supply - left) / line) - 1.0).abs() < 1e-9,
+            "{feed:?}"
+        );
+    }
+    // The groove holds its pressure: the hole's line takes oil out of it, the film sees no hole.
+    let held = solve(vec![circumferential(), behind(hole.clone(), line)]);
+    let back = (2e5 - PRESSURE) / line;
+    assert!((held[1].flow / back - 1.0).abs() < 1e-12, "{held:?}");
+    let total = (held[0].flow + held[1].flow) * film / PRESSURE;
+    assert!((total - 1.0).abs() < 1e-10, "{total}");
+    // Neither can give way: the order decides.
+    let covered = solve(vec![circumferential(), hole.clone()]);
+    assert_eq!(covered[1].flow, 0.0);
+    assert!((covered[0].flow * film / PRESSURE - 1.0).abs() < 1e-10);
+    let first = solve(vec![hole, circumferential()]);
+    assert!(
+        first[0].flow < 0.0,
+        "the groove drives oil into the hole: {first:?}"
+    );
+}
+
+/// 850 kg/m3 at 3000 rpm from the axis to 104 mm: 4.5369 bar.
+#[test]
+fn head_of_a_drilling() {
+    let head = drilling_head(850.0, 100.0 * PI, 0.0, 0.104);
+    assert!((head - 453_686.0).abs() < 1.0, "{head}");
+    let part = drilling_head(850.0, 100.0 * PI, 0.03, 0.104);
+    let rest = drilling_head(850.0, 100.0 * PI, 0.0, 0.03);
+    assert!((part + rest - head).abs() < 1e-6);
+    assert_eq!(
+        drilling_head(850.0, 100.0, 0.1, 0.0),
+        -drilling_head(850.0, -100.0, 0.0, 0.1)
+    );
 }

@@ -77,7 +77,7 @@ pub const KEYS: &[Key] = &[
     key("bearing.groove.pressure", Quantity(Dimension::Pressure, GAUGE), Optional, PHYSICAL, "Supply pressure (gauge). Give this or pressure_file.", "\"1 bar\" to \"6 bar\""),
     key("bearing.groove.pressure_file", Text, Optional, CYCLE,
         "CSV beside the study with the supply pressure (gauge) over the period: crank_angle[deg],pressure[bar]. Give this or pressure.", "\"feed.csv\""),
-    key("bearing.groove.line_resistance", Quantity(Dimension::FlowResistance, Range::between(0.0, 1e30, "Pa.s/m3")), Optional, PHYSICAL,
+    key("bearing.groove.line_resistance", Quantity(Dimension::FlowResistance, Range::between(0.0, 1e6, "bar.s/cm3")), Optional, PHYSICAL,
         "Pressure drop per flow in the line between supply and groove; without it the supply pressure holds in the groove.", "\"0.1 bar.s/cm3\" to \"2 bar.s/cm3\""),
     key("bearing.groove.drilling_inlet_radius", Quantity(Dimension::Length, Range::between(0.0, 10_000.0, "mm")), Optional, PHYSICAL,
         "Distance from the crank axis at which the drilling in the crank takes its oil; with drilling_outlet_radius: their centrifugal head adds to the supply pressure.", "\"0 mm\", or the radius of the main journal"),

@@ -107,10 +107,25 @@ impl GrooveCheck<'_, '_> {
     }
 
     fn feed(&self) -> Result<(Feed, Supply), Refused> {
+        // What is wrong with the one is told beside what is wrong with the other.
+        let (mut feed, mut supply) = match (self.outline(), self.supply()) {
+            (Ok(feed), Ok(supply)) => (feed, supply),
+            (feed, supply) => {
+                let errors = feed.err().into_iter().chain(supply.err());
+                return Err(errors.flatten().collect());
+            }
+        };
+        let head = self.head(&feed)?;
+        feed.pressure = self.raise(&mut supply, head)?;
+        Ok((feed, supply))
+    }
+
+    /// The feed but for its pressure.
+    fn outline(&self) -> Result<Feed, Refused> {
         let kind = self.text("bearing.groove.kind")?;
         self.check_keys(&kind)?;
         let shape = self.shape(&kind)?;
-        let mut feed = Feed {
+        let feed = Feed {
             shape,
             carried_by: match self.text("bearing.groove.carried_by")?.as_str() {
                 "journal" => Carrier::Journal,
@@ -125,13 +140,11 @@ impl GrooveCheck<'_, '_> {
             line: self.line()?,
         };
         let errors = self.misfits(&feed);
-        if !errors.is_empty() {
-            return Err(errors);
+        if errors.is_empty() {
+            Ok(feed)
+        } else {
+            Err(errors)
         }
-        let mut supply = self.supply()?;
-        let head = self.head(&feed)?;
-        feed.pressure = self.raise(&mut supply, head)?;
-        Ok((feed, supply))
     }
 
     /// Each kind has its own keys: those it lacks and those it has no use for.
