@@ -23,9 +23,13 @@ pub mod integrals;
 pub mod journal_state;
 pub mod linear;
 pub mod mirror;
+pub mod narrowest;
 pub mod reynolds;
+pub mod shape;
+mod shape_table;
 pub mod solver;
 pub mod supply;
+pub mod surfaces;
 
 pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
 pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
@@ -35,4 +39,5 @@ pub use force::{
 };
 pub use grid::Grid;
 pub use journal_state::JournalState;
+pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;

@@ -5,7 +5,7 @@ pub mod planar;
 pub mod recomputed;
 
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, Inlet,
+    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, Inlet, Shape,
 };
 use sommerfeld_oil::Lubricant;
 
@@ -15,6 +15,8 @@ pub fn big_end() -> Bearing {
         diameter: 0.072,
         width: 0.030,
         radial_clearance: 36e-6,
+        bore: Shape::cylindrical(),
+        journal: Shape::cylindrical(),
         feeds: Vec::new(),
         ambient_pressure: 0.0,
         cavitation_pressure: 0.0,
