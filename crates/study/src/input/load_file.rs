@@ -5,14 +5,11 @@
 //! journal. Angles ascend, may start anywhere and span at most one period; the last row may repeat
 //! the first.
 
-use super::error::{InputError, Place};
-use super::schema::nearest_word;
+use super::csv_table::{self, CsvTable, Layout, read_table};
+use super::error::InputError;
 use super::units::Dimension;
 use sommerfeld_bearing::{LoadCycle, LoadPoint};
-use std::ops::Range;
 
-/// More messages than this about one file help nobody.
-const MOST_ERRORS: usize = 10;
 /// A closing step above this share of a column's range is a warning.
 const CLOSING_STEP: f64 = 0.05;
 /// A closing angle this much larger than the largest step in the table is a warning.
@@ -40,7 +37,7 @@ pub struct LoadTable {
     pub warnings: Vec<InputError>,
 }
 
-/// Columns a load table may have, in the order of [`Row`].
+/// Columns a load table may have.
 const COLUMNS: [(&str, Dimension); 7] = [
     ("crank_angle", Dimension::Angle),
     ("load_x", Dimension::Force),
@@ -56,267 +53,48 @@ const MOMENTS: [usize; 2] = [5, 6];
 const HEADER: &str = "crank_angle[deg],load_x[N],load_y[N], then as needed journal_speed[rad/s],\
                       shell_speed[rad/s],moment_x[N.m],moment_y[N.m]";
 
-/// One row in SI, by column of [`COLUMNS`], with its place.
-struct Row {
-    values: [f64; COLUMNS.len()],
-    line: usize,
-}
+const LAYOUT: Layout<{ COLUMNS.len() }> = Layout {
+    what: "load table",
+    columns: COLUMNS,
+    required: REQUIRED,
+    together: &[&MOMENTS],
+    header: HEADER,
+};
 
-/// A line of the file with its number; cells know their place in it.
-#[derive(Clone, Copy)]
-struct Line<'t> {
-    number: usize,
-    text: &'t str,
-}
-
-impl<'t> Line<'t> {
-    /// Cells without the blanks around them, and their bytes in the line.
-    fn cells(self) -> impl Iterator<Item = (&'t str, Range<usize>)> {
-        let mut start = 0;
-        self.text.split(',').map(move |cell| {
-            let trimmed = cell.trim();
-            let from = start + (cell.len() - cell.trim_start().len());
-            start += cell.len() + 1;
-            (trimmed, from..from + trimmed.len())
-        })
-    }
-
-    fn error(self, file: &str, span: Range<usize>, message: impl Into<String>) -> InputError {
-        let value = self.text.get(span.clone()).unwrap_or_default().to_owned();
-        InputError::new(file, message)
-            .at(Place::in_line(self.number, self.text, span))
-            .with_value(&value)
-    }
-}
+/// A load table before it becomes a cycle.
+type Table<'t> = CsvTable<'t, { COLUMNS.len() }>;
+type Row<'t> = csv_table::Row<'t, { COLUMNS.len() }>;
 
 /// Reads a load table.
 ///
 /// # Errors
-/// Every error found, up to ten, each with its line.
+/// Every error found, the first few with their lines.
 pub fn read_load_table(
     file: &str,
     text: &str,
     settings: &CycleSettings,
 ) -> Result<LoadTable, Vec<InputError>> {
-    let mut lines = text
-        .lines()
-        .enumerate()
-        .map(|(index, text)| Line {
-            number: index + 1,
-            text: text.trim_end(),
-        })
-        .filter(|line| !line.text.trim().is_empty() && !line.text.starts_with('#'));
-    let Some(header) = lines.next() else {
+    let mut table = read_table(file, text, &LAYOUT)?;
+    let errors = table.not_ascending(0, "crank angle");
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    if let [only] = &table.rows[..] {
+        let error = table.error_at(only, 0, "the load table has one row only");
         return Err(vec![
-            InputError::new(file, "the load table is empty").allowing(HEADER),
+            error
+                .allowing("two rows or more")
+                .hinting("for a constant load use analysis = \"equilibrium\""),
         ]);
-    };
-    let columns = read_header(file, header)?;
-    let rows = read_rows(file, lines, &columns)?;
-    let (rows, closing_error) = close(file, rows, settings)?;
+    }
+    let closing_error = close(file, &mut table, settings)?;
     let mut warnings: Vec<InputError> = closing_error.into_iter().collect();
-    warnings.extend(warn_of_missing_angles(file, &rows, settings));
-    let has_moments = columns.iter().any(|column| MOMENTS.contains(&column.index));
+    warnings.extend(warn_of_missing_angles(file, &table.rows, settings));
     Ok(LoadTable {
-        cycle: load_cycle(&rows, &columns, settings),
-        has_moments,
+        cycle: load_cycle(&table, settings),
+        has_moments: MOMENTS.iter().any(|&index| table.has(index)),
         warnings,
     })
-}
-
-/// A column of the file: which of [`COLUMNS`], and its unit.
-struct Column<'t> {
-    index: usize,
-    unit: &'t str,
-}
-
-fn read_header<'t>(file: &str, header: Line<'t>) -> Result<Vec<Column<'t>>, Vec<InputError>> {
-    let mut errors = Vec::new();
-    let mut columns: Vec<Column<'t>> = Vec::new();
-    if header.text.contains(';') {
-        let end = header.text.len();
-        return Err(vec![
-            header
-                .error(file, 0..end, "the columns are separated by semicolons")
-                .allowing(HEADER)
-                .hinting("separate columns by commas and write decimals with a point"),
-        ]);
-    }
-    for (cell, span) in header.cells() {
-        match read_column(cell) {
-            Ok(column) if columns.iter().any(|known| known.index == column.index) => {
-                errors.push(header.error(file, span, format!("column `{cell}` is given twice")));
-            }
-            Ok(column) => columns.push(column),
-            Err((message, allowed)) => {
-                errors.push(header.error(file, span, message).allowing(allowed));
-            }
-        }
-        if errors.len() >= MOST_ERRORS {
-            return Err(errors);
-        }
-    }
-    if errors.is_empty() {
-        errors.extend(missing_columns(file, header, &columns));
-    }
-    if errors.is_empty() {
-        Ok(columns)
-    } else {
-        Err(errors)
-    }
-}
-
-/// Reads `name[unit]`; the error is a message and what is allowed.
-fn read_column(cell: &str) -> Result<Column<'_>, (String, String)> {
-    let shown: String = cell.chars().take(40).collect();
-    let (name, unit) = match cell.split_once('[') {
-        Some((name, unit)) => (name.trim(), unit.strip_suffix(']')),
-        None => (cell, None),
-    };
-    let Some(index) = COLUMNS.iter().position(|column| column.0 == name) else {
-        let names = COLUMNS.map(|column| column.0);
-        let meant = nearest_word(&names, name)
-            .map(|word| format!("; did you mean `{word}`?"))
-            .unwrap_or_default();
-        return Err((
-            format!("unknown column `{shown}`{meant}"),
-            HEADER.to_owned(),
-        ));
-    };
-    let dimension = COLUMNS[index].1;
-    let units = format!("{name} in one of [{}]", dimension.units().join("], ["));
-    match unit {
-        None => Err((format!("column `{shown}` has no unit in brackets"), units)),
-        Some(unit) if dimension.to_si(1.0, unit).is_none() => {
-            Err((format!("column `{name}` cannot be in `{unit}`"), units))
-        }
-        Some(unit) => Ok(Column { index, unit }),
-    }
-}
-
-fn missing_columns(file: &str, header: Line<'_>, columns: &[Column<'_>]) -> Option<InputError> {
-    let has = |index: usize| columns.iter().any(|column| column.index == index);
-    let mut missing: Vec<&str> = (0..REQUIRED)
-        .filter(|&i| !has(i))
-        .map(|i| COLUMNS[i].0)
-        .collect();
-    if MOMENTS.iter().any(|&index| has(index)) {
-        missing.extend(MOMENTS.iter().filter(|&&i| !has(i)).map(|&i| COLUMNS[i].0));
-    }
-    if missing.is_empty() {
-        return None;
-    }
-    let message = format!("the load table lacks the column {}", missing.join(", "));
-    Some(
-        header
-            .error(file, 0..header.text.len(), message)
-            .allowing(HEADER),
-    )
-}
-
-fn read_rows<'t>(
-    file: &str,
-    lines: impl Iterator<Item = Line<'t>>,
-    columns: &[Column<'_>],
-) -> Result<Vec<Row>, Vec<InputError>> {
-    let mut rows: Vec<Row> = Vec::new();
-    let mut errors = Vec::new();
-    let mut last = 0;
-    for line in lines {
-        last = line.number;
-        match read_row(file, line, columns) {
-            Ok(row) => match rows.last() {
-                Some(before) if row.values[0] <= before.values[0] => {
-                    errors.push(unsorted(file, line, columns, before, &row));
-                }
-                _ => rows.push(row),
-            },
-            Err(error) => errors.push(*error),
-        }
-        if errors.len() >= MOST_ERRORS {
-            break;
-        }
-    }
-    if errors.is_empty() && rows.len() < 2 {
-        let place = Place::in_line(last, "", 0..0);
-        let message = format!("the load table has {} rows of numbers", rows.len());
-        let mut error = InputError::new(file, message).allowing("two rows or more");
-        if last > 0 {
-            error = error.at(place);
-        }
-        errors.push(error);
-    }
-    if errors.is_empty() {
-        Ok(rows)
-    } else {
-        Err(errors)
-    }
-}
-
-fn read_row(file: &str, line: Line<'_>, columns: &[Column<'_>]) -> Result<Row, Box<InputError>> {
-    let cells = line.cells().count();
-    if cells != columns.len() {
-        let message = format!("{cells} values, the header names {} columns", columns.len());
-        let error = line.error(file, 0..line.text.len(), message);
-        return Err(Box::new(if cells > columns.len() {
-            error.hinting("decimals take a point, columns are separated by one comma")
-        } else {
-            error
-        }));
-    }
-    let mut values = [0.0; COLUMNS.len()];
-    for (column, (cell, span)) in columns.iter().zip(line.cells()) {
-        let (name, dimension) = COLUMNS[column.index];
-        let number = cell.parse::<f64>().ok();
-        match number.and_then(|number| dimension.to_si(number, column.unit)) {
-            Some(value) if value.is_finite() => values[column.index] = value,
-            Some(_) => {
-                let message = format!("`{name}` is not a finite number");
-                return Err(line.error(file, span, message).into());
-            }
-            None => {
-                let shown: String = cell.chars().take(40).collect();
-                let message = format!("`{name}` is not a number: `{}`", shown.escape_debug());
-                return Err(line.error(file, span, message).into());
-            }
-        }
-    }
-    Ok(Row {
-        values,
-        line: line.number,
-    })
-}
-
-fn unsorted(
-    file: &str,
-    line: Line<'_>,
-    columns: &[Column<'_>],
-    before: &Row,
-    row: &Row,
-) -> InputError {
-    let degrees = |row: &Row| row.values[0].to_degrees();
-    let at = columns
-        .iter()
-        .position(|column| column.index == 0)
-        .unwrap_or(0);
-    let span = line.cells().nth(at).map_or(0..0, |(_, span)| span);
-    let message = format!(
-        "the crank angle falls from {} deg in line {} to {} deg",
-        round(degrees(before)),
-        before.line,
-        round(degrees(row))
-    );
-    let message = if row.values[0] == before.values[0] {
-        format!(
-            "the crank angle {} deg repeats line {}",
-            round(degrees(row)),
-            before.line
-        )
-    } else {
-        message
-    };
-    line.error(file, span, message)
-        .hinting("sort the rows by crank angle, each angle once")
 }
 
 /// A number as it is shown in messages: nine digits, no round-off tails.
@@ -327,11 +105,11 @@ fn round(value: f64) -> f64 {
 /// Checks the span, drops a last row that repeats the first, and warns of a closing step.
 fn close(
     file: &str,
-    mut rows: Vec<Row>,
+    table: &mut Table<'_>,
     settings: &CycleSettings,
-) -> Result<(Vec<Row>, Option<InputError>), Vec<InputError>> {
-    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
-        return Ok((rows, None));
+) -> Result<Option<InputError>, Vec<InputError>> {
+    let (Some(first), Some(last)) = (table.rows.first(), table.rows.last()) else {
+        return Ok(None);
     };
     let span = last.values[0] - first.values[0];
     let slack = 1e-6 * settings.period;
@@ -341,34 +119,32 @@ fn close(
             round(span.to_degrees()),
             round(settings.period.to_degrees())
         );
-        let place = Place::in_line(last.line, "", 0..0);
+        let error = table.error_at(last, 0, message);
         return Err(vec![
-            InputError::new(file, message)
-                .at(place)
-                .hinting("cut the table to one period or set load_cycle.period"),
+            error.hinting("cut the table to one period or set load_cycle.period"),
         ]);
     }
-    let warning = closing_step(&rows, settings.period).map(|(name, share)| {
+    let warning = closing_step(&table.rows, settings.period).map(|(name, share)| {
         InputError::new(
             file,
             format!(
                 "{name} steps by {:.0} % of its range where the cycle closes (line {} to line {})",
                 100.0 * share,
-                last.line,
-                first.line
+                last.line(),
+                first.line()
             ),
         )
         .hinting("a load that steps shakes the journal; check the ends of the table")
     });
     if span > settings.period - slack {
-        rows.pop();
+        table.rows.pop();
     }
-    Ok((rows, warning))
+    Ok(warning)
 }
 
 /// Column with the largest step from the last row to the first, if it stays above [`CLOSING_STEP`]
 /// when what the slope of the rows beside explains over the closing angle is taken off.
-fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
+fn closing_step(rows: &[Row<'_>], period: f64) -> Option<(&'static str, f64)> {
     let [first, second, .., before_last, last] = rows else {
         return None;
     };
@@ -394,7 +170,7 @@ fn closing_step(rows: &[Row], period: f64) -> Option<(&'static str, f64)> {
 /// Warns of a table that covers only part of the period.
 fn warn_of_missing_angles(
     file: &str,
-    rows: &[Row],
+    rows: &[Row<'_>],
     settings: &CycleSettings,
 ) -> Option<InputError> {
     let (first, last) = (rows.first()?, rows.last()?);
@@ -417,10 +193,10 @@ fn warn_of_missing_angles(
     })
 }
 
-fn load_cycle(rows: &[Row], columns: &[Column<'_>], settings: &CycleSettings) -> LoadCycle {
-    let has = |index: usize| columns.iter().any(|column| column.index == index);
-    let (has_journal_speed, has_shell_speed) = (has(3), has(4));
-    let points = rows
+fn load_cycle(table: &Table<'_>, settings: &CycleSettings) -> LoadCycle {
+    let (has_journal_speed, has_shell_speed) = (table.has(3), table.has(4));
+    let points = table
+        .rows
         .iter()
         .map(|row| {
             let [

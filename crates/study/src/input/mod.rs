@@ -4,6 +4,7 @@
 //! SI; `read` walks the TOML; `check` looks at what no single key can tell; [`load_study`] joins them.
 
 mod check;
+mod csv_table;
 mod error;
 mod explain;
 mod files;

@@ -243,6 +243,13 @@ fn foreign_unit(unit: &str) -> QuantityError {
     }
 }
 
+/// The text with a hyphen for the minus sign of typesetting or the dash that stands at its start;
+/// `None` where there is none.
+pub(super) fn with_ascii_minus(text: &str) -> Option<String> {
+    let rest = text.strip_prefix(['\u{2212}', '\u{2013}', '\u{2014}', '\u{2010}', '\u{2011}'])?;
+    Some(format!("-{}", rest.trim_start()))
+}
+
 /// Length in bytes of the decimal number at the start of `text`; 0 without one.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
