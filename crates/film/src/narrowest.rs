@@ -2,15 +2,15 @@
 //!
 //! Between cylinders it lies at an edge of the straight journal axis. With profiles the whole surface
 //! is searched: it is divided into patches between the kinks of both surfaces, inside which the gap
-//! is smooth. The least corner is followed down to the minimum of its patches. Then every patch
-//! whose gap could still be smaller, by the bound
+//! is smooth. The patch with the least corner is followed down to its minimum, and so is every other
+//! whose gap could be smaller, by the bound
 //!
 //! ```text
 //! h >= least corner - (M_angle d_angle^2 + M_z d_z^2)/8 - bend d_angle/4
 //! ```
-//! with bounds M of the second derivatives, is divided until it cannot: nothing is missed. `bend` is
-//! the change of slope at kinks that turn through the patches. Nothing is allocated after the search
-//! is made.
+//! with bounds M of the second derivatives. Patches that could still hold a smaller gap are divided
+//! until they cannot: nothing is missed. `bend` is the change of slope at kinks that turn through the
+//! patches. Nothing is allocated after the search is made.
 
 use crate::bearing::Bearing;
 use crate::journal_state::JournalState;
@@ -23,9 +23,9 @@ const MOST_STATIONS: usize = 2048;
 /// Pieces along the axis between kinks.
 const PIECES: usize = 3;
 /// The gap is the smallest within this share of the clearance.
-const CERTAINTY: f64 = 1e-7;
+const CERTAINTY: f64 = 1e-6;
 /// Patches looked at beyond the first round; a valley as narrow along its whole length needs many.
-const MOST_PATCHES: usize = 20_000;
+const MOST_PATCHES: usize = 4000;
 
 /// The smallest gap with its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,8 +49,10 @@ pub struct GapSearch {
     along: Vec<f64>,
     /// Tabled share of the bore, all positions of a station first, m; empty without a table.
     tabled: Vec<f64>,
-    /// Bounds of the second derivatives of both profiles, m/rad2 and 1/m.
-    curvature: [f64; 2],
+    /// Bound of both profiles' second derivative by angle, m/rad2.
+    curvature_around: f64,
+    /// The same by z between two positions, 1/m.
+    curvature_along: Vec<f64>,
     /// Change of slope at kinks of the journal, m/rad.
     bend: f64,
     varies_along: bool,
@@ -69,6 +71,8 @@ struct Station {
 struct Patch {
     around: [f64; 2],
     along: [f64; 2],
+    /// Bound of the gap's second derivative by z, 1/m.
+    curvature_along: f64,
 }
 
 impl GapSearch {
@@ -83,18 +87,23 @@ impl GapSearch {
             positions: vec![-half, half],
             along: vec![0.0; 2],
             tabled: Vec::new(),
-            curvature: [0.0; 2],
+            curvature_around: 0.0,
+            curvature_along: vec![0.0],
             bend: journal.bend(),
             varies_along,
         };
         if bore.is_cylindrical() && journal.is_cylindrical() {
             return search;
         }
-        search.curvature =
-            [0, 1].map(|axis| bore.curvature_bounds()[axis] + journal.curvature_bounds()[axis]);
+        let bound = |z: f64, axis: usize| {
+            bore.curvature_bounds(z)[axis] + journal.curvature_bounds(z)[axis]
+        };
+        search.curvature_around = bound(0.0, 0);
         search.stations = stations(bearing);
         if varies_along {
             search.positions = positions(bearing);
+            let pieces = search.positions.windows(2);
+            search.curvature_along = pieces.map(|p| bound(0.5 * (p[0] + p[1]), 1)).collect();
         }
         let share = |z: &f64| bore.along(*z) - journal.along(*z);
         search.along = search.positions.iter().map(share).collect();
@@ -130,7 +139,7 @@ impl GapSearch {
             bearing,
             state,
             turned: state.shell_angle,
-            curvature: [self.curvature[0] + reach, self.curvature[1]],
+            curvature: self.curvature_around + reach,
             bend: self.bend,
             least: Narrowest {
                 gap: f64::INFINITY,
@@ -149,11 +158,19 @@ impl GapSearch {
             descent.follow_down(patch);
         }
         let start = descent;
-        self.patches(&start, along, |patch, lowest| {
-            if lowest - start.largest_dip(patch) < descent.least.gap - descent.tolerance() {
-                descent.divide(patch, 24);
-            }
-        });
+        // First the minima of all that may be lower, then the proof that nothing else is.
+        for divides in [false, true] {
+            self.patches(&start, along.clone(), |patch, lowest| {
+                if lowest - start.largest_dip(patch) >= descent.least.gap - descent.tolerance() {
+                    return;
+                }
+                if divides {
+                    descent.divide(patch, 24);
+                } else {
+                    descent.follow_down(patch);
+                }
+            });
+        }
         let mut least = descent.least;
         least.angle = (least.angle + state.shell_angle).rem_euclid(TAU);
         least
@@ -177,14 +194,12 @@ impl GapSearch {
             let around = [pair[0].angle, pair[1].angle];
             if along.is_empty() {
                 let heights = sides.map(|(_, station, own)| film.height(&station, 0.0) + own);
-                let middle = [0.0, 0.0];
-                visit(
-                    Patch {
-                        around,
-                        along: middle,
-                    },
-                    heights[0].min(heights[1]),
-                );
+                let patch = Patch {
+                    around,
+                    along: [0.0; 2],
+                    curvature_along: 0.0,
+                };
+                visit(patch, heights[0].min(heights[1]));
                 continue;
             }
             let edge = |k: usize| {
@@ -203,8 +218,12 @@ impl GapSearch {
             let mut before = edge(along.start);
             for k in along.start + 1..along.end {
                 let behind = edge(k);
-                let along = [self.positions[k - 1], self.positions[k]];
-                visit(Patch { around, along }, before.min(behind));
+                let patch = Patch {
+                    around,
+                    along: [self.positions[k - 1], self.positions[k]],
+                    curvature_along: self.curvature_along[k - 1],
+                };
+                visit(patch, before.min(behind));
                 before = behind;
             }
         }
@@ -281,7 +300,8 @@ struct Descent<'a> {
     bearing: &'a Bearing,
     state: &'a JournalState,
     turned: f64,
-    curvature: [f64; 2],
+    /// Bound of the gap's second derivative by angle, m/rad2.
+    curvature: f64,
     bend: f64,
     least: Narrowest,
     patches_left: usize,
@@ -341,7 +361,7 @@ impl Descent<'_> {
     /// How far below its lowest corner the gap of a patch can lie, m.
     fn largest_dip(&self, patch: Patch) -> f64 {
         let [d_angle, d_z] = [patch.around, patch.along].map(|[a, b]| b - a);
-        let smooth = self.curvature[0] * d_angle * d_angle + self.curvature[1] * d_z * d_z;
+        let smooth = self.curvature * d_angle * d_angle + patch.curvature_along * d_z * d_z;
         0.125 * smooth + 0.25 * self.bend * d_angle
     }
 
@@ -388,7 +408,7 @@ impl Descent<'_> {
             return;
         }
         let [d_angle, d_z] = [patch.around, patch.along].map(|[a, b]| b - a);
-        let of_angle = 0.125 * self.curvature[0] * d_angle * d_angle + 0.25 * self.bend * d_angle;
+        let of_angle = 0.125 * self.curvature * d_angle * d_angle + 0.25 * self.bend * d_angle;
         let halves = |[a, b]: [f64; 2]| [[a, 0.5 * (a + b)], [0.5 * (a + b), b]];
         if of_angle >= 0.5 * dip || d_z == 0.0 {
             for around in halves(patch.around) {

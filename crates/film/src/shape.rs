@@ -257,8 +257,8 @@ impl Feature {
         }
     }
 
-    /// Bounds of the second derivatives by angle (m/rad2) and by z (1/m) between kinks.
-    fn curvature_bounds(&self) -> [f64; 2] {
+    /// Bounds of the second derivatives by angle (m/rad2) and by z (1/m) between kinks, about `z`.
+    fn curvature_bounds(&self, z: f64) -> [f64; 2] {
         match self {
             Self::Lemon { shift, .. } | Self::OffsetHalves { shift, .. } => [shift.abs(), 0.0],
             Self::JointRelief { .. } => [0.0; 2],
@@ -270,8 +270,12 @@ impl Feature {
                 half_width,
             } => [0.0, 2.0 * end_offset.abs() / (half_width * half_width)],
             Self::EndRelief {
-                length, end_offset, ..
-            } => [0.0, 2.0 * end_offset.abs() / (length * length)],
+                end,
+                length,
+                end_offset,
+                form: ReliefForm::Circular,
+            } if (end - z).abs() < *length => [0.0, 2.0 * end_offset.abs() / (length * length)],
+            Self::EndRelief { .. } => [0.0; 2],
             Self::Table(table) => table.curvature_bounds(),
         }
     }
@@ -429,10 +433,11 @@ impl Shape {
         self.sum(Feature::bend)
     }
 
-    /// Bounds of the second derivatives by angle (m/rad2) and by z (1/m) between kinks.
+    /// Bounds of the second derivatives by angle (m/rad2) and by z (1/m) on the stretch between two
+    /// kinks along the axis that `z` lies in.
     #[must_use]
-    pub fn curvature_bounds(&self) -> [f64; 2] {
-        [0, 1].map(|axis| self.sum(|feature| feature.curvature_bounds()[axis]))
+    pub fn curvature_bounds(&self, z: f64) -> [f64; 2] {
+        [0, 1].map(|axis| self.sum(|feature| feature.curvature_bounds(z)[axis]))
     }
 
     /// Stations around below which its waves would be missed.
@@ -646,10 +651,10 @@ mod tests {
     fn curvature_stays_within_its_bounds() {
         for feature in every_feature() {
             let shape = Shape::of([feature.clone()]);
-            let [around, along] = shape.curvature_bounds();
             let kinks = shape.kinks_around();
             let bends = shape.kinks_along();
             for (angle, z) in places() {
+                let [around, along] = shape.curvature_bounds(z);
                 let d = 1e-5;
                 if kinks.iter().all(|k| wrapped(angle - k).abs() > 2.0 * d) {
                     let by = (shape.gradient(angle + d, z)[0] - shape.gradient(angle - d, z)[0])
