@@ -6,10 +6,13 @@ use crate::input::read::{Entries, MOST_ERRORS};
 use crate::input::schema::Mode;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
-use sommerfeld_film::{Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet};
+use sommerfeld_film::{
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedShape, FilmShear, Inlet, Shape,
+};
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
 use std::f64::consts::PI;
 use std::ops::Range;
+use std::path::Path;
 
 /// Relative clearances outside this range are more often a slip of the unit than a bearing.
 const USUAL_CLEARANCE: Range<f64> = 1e-4..1e-2;
@@ -24,7 +27,7 @@ pub(super) struct FilmRules {
 
 impl Checker<'_> {
     /// The bearing with its supply and film rules.
-    pub(super) fn bearing(&mut self) -> Option<Bearing> {
+    pub(super) fn bearing(&mut self, directory: &Path) -> Option<Bearing> {
         let diameter = self.number("bearing.diameter");
         let width = self.number("bearing.width");
         let clearance = self.radial_clearance(diameter);
@@ -35,6 +38,8 @@ impl Checker<'_> {
             diameter: diameter?,
             width: width?,
             radial_clearance: clearance?,
+            bore: Shape::cylindrical(),
+            journal: Shape::cylindrical(),
             feeds: Vec::new(),
             ambient_pressure: ambient_pressure?,
             cavitation_pressure: cavitation_pressure?,
@@ -46,6 +51,8 @@ impl Checker<'_> {
         self.check_pressures(&bearing);
         self.check_inlet(&bearing);
         bearing.feeds = self.feeds(&bearing);
+        (bearing.bore, bearing.journal) = self.shapes(&bearing, directory)?;
+        self.check_shapes(&bearing)?;
         Some(bearing)
     }
 
@@ -526,6 +533,6 @@ impl GrooveCheck<'_, '_> {
 }
 
 /// Metres as millimetres for messages, without round-off tails.
-fn mm(metres: f64) -> f64 {
+pub(super) fn mm(metres: f64) -> f64 {
     (metres * 1e9).round() / 1e6
 }
