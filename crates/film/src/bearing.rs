@@ -1,5 +1,6 @@
 //! What a bearing is: immutable data shared by every film model.
 
+use crate::shape::Shape;
 use serde::{Deserialize, Serialize};
 
 /// One slide bearing: bore, clearance, supply and the rules at its boundaries. Immutable in a run.
@@ -11,6 +12,12 @@ pub struct Bearing {
     pub width: f64,
     /// Radial clearance, m: half the diametral clearance.
     pub radial_clearance: f64,
+    /// How the bore departs from its cylinder.
+    #[serde(default)]
+    pub bore: Shape,
+    /// How the journal departs from its cylinder.
+    #[serde(default)]
+    pub journal: Shape,
     /// Grooves and holes that supply oil.
     pub feeds: Vec<Feed>,
     /// Gauge pressure at the bearing ends, Pa; not below the cavitation pressure.
@@ -40,23 +47,10 @@ impl Bearing {
         self.radial_clearance / self.radius()
     }
 
-    /// Smallest gap between journal and plain bore for this position and tilt, m (negative where
-    /// they overlap): the journal axis is straight, so it lies at one of the two edges.
+    /// Both surfaces are cylinders.
     #[must_use]
-    pub fn minimum_gap(&self, state: &crate::JournalState) -> f64 {
-        self.edge_film_thickness(state)
-            .into_iter()
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    /// Smallest gap at the front edge (z = -B/2) and at the rear edge (z = +B/2), m; negative where
-    /// the surfaces overlap.
-    #[must_use]
-    pub fn edge_film_thickness(&self, state: &crate::JournalState) -> [f64; 2] {
-        [-0.5, 0.5].map(|side| {
-            let [x, y] = state.centre_at(side * self.width);
-            self.radial_clearance - x.hypot(y)
-        })
+    pub fn is_plain(&self) -> bool {
+        self.bore.is_cylindrical() && self.journal.is_cylindrical()
     }
 }
 

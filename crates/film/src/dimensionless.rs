@@ -13,6 +13,7 @@ use crate::bearing::{Bearing, Cavitation, Ends, FilmShear, Inlet};
 use crate::force::{Conditions, FilmError, FilmForce, FilmSummary, Outcome, Reaction, Step};
 use crate::journal_state::JournalState;
 use crate::richardson::{Estimate, Sample, cell_size, estimate, grid_sequence};
+use crate::shape::Shape;
 use crate::solver::FilmSolver;
 use serde::{Deserialize, Serialize};
 use sommerfeld_oil::Lubricant;
@@ -75,6 +76,8 @@ impl DimensionlessFilm {
             diameter: 2.0 * RADIUS,
             width: 2.0 * RADIUS / self.d_over_b,
             radial_clearance: RELATIVE_CLEARANCE * RADIUS,
+            bore: Shape::cylindrical(),
+            journal: Shape::cylindrical(),
             feeds: Vec::new(),
             ambient_pressure: 0.0,
             cavitation_pressure: 0.0,

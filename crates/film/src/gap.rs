@@ -1,9 +1,10 @@
 //! How thick is the film, and how does it change?
 //!
 //! ```text
-//! h(angle, z) = c - (x + ty z) cos(angle) - (y - tx z) sin(angle)
+//! h(angle, z) = c - (x + ty z) cos(angle) - (y - tx z) sin(angle) + bore - journal profile
 //! ```
-//! with the journal position `(x, y)` and tilt `(tx, ty)`; c is the radial clearance. All here is
+//! with the journal position `(x, y)` and tilt `(tx, ty)`; c is the radial clearance. Here are the
+//! cylinders; [`crate::surfaces`] adds the profiles. All here is
 //! relative: `H = h / c`, positions over c, `zeta = z / R`, tilts times R / c.
 //!
 //! H lives where the discrete equation needs it: at faces (conductance and transport), and as the
@@ -26,6 +27,46 @@ pub struct Gap {
     pub mean: Vec<f64>,
     /// Mean rate dH/dt over each cell, 1/s.
     pub rate: Vec<f64>,
+    /// Faces at which the gap steps.
+    pub steps: Vec<GapStep>,
+}
+
+/// A face around at which the gap steps: the half cells before and behind it, with heights `H1`,
+/// `H2` over the lengths `d1`, `d2`, conduct in series, and continuity of flow and pressure at the
+/// step leaves `(d1 H1^-2 + d2 H2^-2)/(d1 H1^-3 + d2 H2^-3)` for the transport.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapStep {
+    /// The face around.
+    pub face: usize,
+    /// H that carries the transport.
+    pub transport: f64,
+    /// H^3 that conducts.
+    pub cubed: f64,
+    /// Derivative of the transport's H where H grows on both sides alike.
+    pub transport_slope: f64,
+    /// The same of H^3.
+    pub cubed_slope: f64,
+}
+
+impl GapStep {
+    /// Of the half cells before and behind, with heights H and shares of the length.
+    #[must_use]
+    pub fn between(face: usize, heights: [f64; 2], shares: [f64; 2]) -> Self {
+        let series = |power: i32| -> f64 {
+            let terms = heights.iter().zip(shares);
+            terms
+                .map(|(height, share)| share * height.powi(power))
+                .sum()
+        };
+        let (square, cube, fourth) = (series(-2), series(-3), series(-4));
+        Self {
+            face,
+            transport: square / cube,
+            cubed: 1.0 / cube,
+            transport_slope: 3.0 * square * fourth / (cube * cube) - 2.0,
+            cubed_slope: 3.0 * fourth / (cube * cube),
+        }
+    }
 }
 
 impl Gap {
@@ -39,16 +80,30 @@ impl Gap {
             axial: vec![0.0; n * (m + 1)],
             mean: vec![0.0; n * m],
             rate: vec![0.0; n * m],
+            steps: Vec::new(),
         }
     }
 
+    /// Relative derivatives by H, 1/H each, of what conducts and of what transports through a face
+    /// around. `steps` are those of the faces not yet asked for, in ascending order.
+    #[must_use]
+    pub fn relative_slopes(&self, face: usize, steps: &mut &[GapStep]) -> (f64, f64) {
+        if let [step, rest @ ..] = *steps
+            && step.face == face
+        {
+            *steps = rest;
+            return (
+                step.cubed_slope / step.cubed,
+                step.transport_slope / step.transport,
+            );
+        }
+        let per_height = 1.0 / self.around_transport[face];
+        (3.0 * per_height, per_height)
+    }
+
     /// Gap of a planar slider, uniform along the axis: `profile(x, side)` is H just before
-    /// (`side < 0`) or just behind (`side > 0`) the place `x`, so that steps may lie on faces;
-    /// `rate(x)` is dH/dt.
-    ///
-    /// At a step the two half cells, of lengths `d1` and `d2`, conduct in series, and continuity of
-    /// flow and pressure at the step leaves `(d1 H1^-2 + d2 H2^-2)/(d1 H1^-3 + d2 H2^-3)` for the
-    /// transport.
+    /// (`side < 0`) or just behind (`side > 0`) the place `x`, so that steps may lie on faces
+    /// ([`GapStep`]); `rate(x)` is dH/dt.
     #[must_use]
     pub fn from_profile(
         grid: &Grid,
@@ -64,12 +119,11 @@ impl Gap {
             let behind = profile(x, if i == n { -1.0 } else { 1.0 });
             let width = |cell: usize| grid.around_widths[cell.min(n - 1)];
             let total = width(i.saturating_sub(1)) + width(i);
-            let d_before = width(i.saturating_sub(1)) / total;
-            let d_behind = width(i) / total;
-            let series = |power: i32| d_before * before.powi(power) + d_behind * behind.powi(power);
+            let shares = [width(i.saturating_sub(1)) / total, width(i) / total];
             for j in 0..m {
-                gap.around_transport[i * m + j] = series(-2) / series(-3);
-                gap.around_cubed[i * m + j] = 1.0 / series(-3);
+                let step = GapStep::between(i * m + j, [before, behind], shares);
+                gap.around_transport[step.face] = step.transport;
+                gap.around_cubed[step.face] = step.cubed;
             }
         }
         for i in 0..n {
@@ -90,7 +144,7 @@ impl Gap {
 }
 
 /// A quantity `a cos(angle) + b sin(angle)` whose amplitudes vary linearly along the axis: the gap
-/// of a plain bore beyond the clearance, its rate, and every derivative of it.
+/// between cylinders beyond the clearance, its rate, and every derivative of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Waviness {
     /// Relative displacement of the centre towards +X and +Y in the mid-plane.
@@ -150,7 +204,7 @@ impl AngleTables {
         }
     }
 
-    /// Fills `gap` for a plain bore with the journal at `position` moving at `rate`.
+    /// Fills `gap` between cylinders with the journal at `position` moving at `rate`.
     pub fn fill_gap(&self, grid: &Grid, position: &Waviness, rate: &Waviness, gap: &mut Gap) {
         let (n, m) = (grid.n_around(), grid.n_axial());
         let thickness = |[x, y]: [f64; 2], [cos, sin]: [f64; 2]| 1.0 - x * cos - y * sin;
@@ -172,5 +226,29 @@ impl AngleTables {
                     thickness(position.at(grid.axial_faces[j]), self.centres[i]);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_step_both_sides_are_one() {
+        let step = GapStep::between(0, [0.7; 2], [0.3, 0.7]);
+        assert!((step.transport - 0.7).abs() < 1e-15);
+        assert!((step.cubed - 0.343).abs() < 1e-15);
+        assert!((step.transport_slope - 1.0).abs() < 1e-14);
+        assert!((step.cubed_slope - 3.0 * 0.49).abs() < 1e-14);
+    }
+
+    #[test]
+    fn slopes_of_a_step_equal_differences() {
+        let at = |by: f64| GapStep::between(0, [0.7 + by, 1.3 + by], [0.4, 0.6]);
+        let (plus, minus, middle) = (at(1e-6), at(-1e-6), at(0.0));
+        let slope = (plus.transport - minus.transport) / 2e-6;
+        assert!((slope - middle.transport_slope).abs() < 1e-9);
+        let slope = (plus.cubed - minus.cubed) / 2e-6;
+        assert!((slope - middle.cubed_slope).abs() < 1e-9);
     }
 }

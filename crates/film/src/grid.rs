@@ -42,13 +42,15 @@ impl Grid {
     }
 
     /// Grid fixed in the shell frame, from angle 0 to 2 pi, uniform but for its faces being moved
-    /// onto the edges of the grooves that the shell carries: an edge inside a cell would be a
-    /// first-order error.
+    /// onto the edges of the grooves that the shell carries and onto the bends of the surfaces: an
+    /// edge inside a cell would be a first-order error.
     #[must_use]
     pub fn shell_fixed(bearing: &Bearing, n_around: usize, n_axial: usize) -> Self {
         let radius = bearing.radius();
         let half_width = 0.5 * bearing.width / radius;
-        let (mut around_edges, mut axial_edges) = (Vec::new(), Vec::new());
+        let mut around_edges = bearing.bore.kinks_around();
+        let bends = [&bearing.bore, &bearing.journal].map(|shape| shape.kinks_along());
+        let mut axial_edges: Vec<f64> = bends.into_iter().flatten().map(|z| z / radius).collect();
         for feed in &bearing.feeds {
             let centre = feed.position / radius;
             let width = match feed.shape {
@@ -94,11 +96,13 @@ impl Grid {
                 }
             })
             .collect();
+        let bends = [&bearing.bore, &bearing.journal].map(|shape| shape.kinks_along());
+        let bends = bends.into_iter().flatten().map(|z| z / bearing.radius());
         let axial = faces_through(
             -half_width,
             half_width,
             n_axial,
-            Vec::new(),
+            bends.collect(),
             clustered_faces,
         );
         Self::from_faces(around, axial)

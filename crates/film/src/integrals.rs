@@ -3,11 +3,14 @@
 //! ```text
 //! F = -int p n dA            M = int r x (-p n) dA          about the mid-plane shell centre
 //! M_f = R int ( eta U_s/h +- (h/2) dp/dx ) dA               + journal, - shell
-//! M_journal - M_shell = e x F + (tilt x M)_z                holds to round-off
-//! P = M_journal (w_J - w_S) - F v - M tilt_rate             v relative to the turning shell
+//! M_journal - M_shell = e x F + (tilt x M)_z - int p d(bore - journal profile)/d(angle) dA
+//! P = (M_journal - int p d(journal profile)/d(angle) dA)(w_J - w_S) - F v - M tilt_rate
 //! ```
+//! with v and tilt_rate relative to the turning shell. The friction torques are those of the shear at
+//! both surfaces; the pressure on a journal that is not round turns it, too.
 //! Pressure weights are exact cell integrals of cos and sin, and the pressure part of the torque is
-//! summed over faces: summation by parts then makes the torque identity exact on any grid.
+//! summed over faces: summation by parts then makes the torque identity exact on any grid, with the
+//! rise of a profile over each cell.
 
 use crate::bearing::{Bearing, FilmShear};
 use crate::cavitation::FilmSet;
@@ -16,7 +19,9 @@ use crate::gap::{AngleTables, Gap, Waviness};
 use crate::grid::Grid;
 use crate::journal_state::JournalState;
 use crate::linear::Lanes;
+use crate::narrowest::GapSearch;
 use crate::reynolds::{Axial, Cell, Operator, Storage};
+use crate::surfaces::Surfaces;
 
 /// Units that turn the film's relative quantities into SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +67,10 @@ pub struct SolvedFilm<'a> {
     pub angles: &'a AngleTables,
     /// The gap.
     pub gap: &'a Gap,
+    /// Profiles of both surfaces.
+    pub surfaces: &'a Surfaces,
+    /// Where the gap is smallest.
+    pub search: &'a GapSearch,
     /// The balance.
     pub operator: &'a Operator,
     /// The set of the solution.
@@ -183,8 +192,8 @@ impl SolvedFilm<'_> {
     pub fn summary(&self, state: &JournalState, reaction: &Reaction) -> FilmSummary {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let mut summary = FilmSummary {
-            minimum_film_thickness: minimum_film(self.bearing, state),
-            edge_film_thickness: self.bearing.edge_film_thickness(state),
+            minimum_film_thickness: self.minimum_film(state),
+            edge_film_thickness: self.search.at_edges(self.bearing, state),
             peak_film_pressure: self.peak_pressure(),
             ..FilmSummary::default()
         };
@@ -222,6 +231,29 @@ impl SolvedFilm<'_> {
         summary
     }
 
+    fn minimum_film(&self, state: &JournalState) -> Extreme {
+        let least = self.search.narrowest(self.bearing, state);
+        Extreme {
+            value: least.gap,
+            angle: least.angle,
+            axial: least.axial,
+        }
+    }
+
+    /// `int p d(journal profile)/d(angle) dA`, N m: what the pressure turns a journal by that is not
+    /// round.
+    fn profile_torque(&self) -> f64 {
+        if !self.surfaces.journal_varies_around() {
+            return 0.0;
+        }
+        let m = self.grid.n_axial();
+        let terms = self.pressure.iter().enumerate();
+        let sum: f64 = terms
+            .map(|(k, p)| p * self.surfaces.journal_rise(k, m) * self.grid.axial_widths[k % m])
+            .sum();
+        sum * self.units.clearance * self.units.pressure * self.units.area
+    }
+
     /// Flow into the film from a line that holds a pressure around: before the first cell and
     /// behind the last, 1/s.
     fn inlet_line_flow(&self) -> f64 {
@@ -251,7 +283,8 @@ impl SolvedFilm<'_> {
         summary.friction_power =
             reaction.friction_torque_journal * (state.journal_speed - state.shell_speed);
         summary.squeeze_power = -(force[0] * velocity[0] + force[1] * velocity[1])
-            - (moment[0] * tilt_rate[0] + moment[1] * tilt_rate[1]);
+            - (moment[0] * tilt_rate[0] + moment[1] * tilt_rate[1])
+            - self.profile_torque() * (state.journal_speed - state.shell_speed);
     }
 
     /// Peak of the parabolas through the highest cell and its neighbours, Pa.
@@ -335,6 +368,7 @@ impl SolvedFilm<'_> {
         } else {
             n + 1
         };
+        let mut steps = self.gap.steps.as_slice();
         for i in 0..last {
             let trig = self.angles.faces[i];
             for j in 0..m {
@@ -357,9 +391,9 @@ impl SolvedFilm<'_> {
                 } else {
                     theta_behind
                 };
-                let conducted = 3.0 * self.operator.conductance_around[face];
-                let by_height = (conducted * (p_before - p_behind) + transport * upstream)
-                    / self.gap.around_transport[face];
+                let (conducting, carrying) = self.gap.relative_slopes(face, &mut steps);
+                let conducted = conducting * self.operator.conductance_around[face];
+                let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
                 let value = |cell: Option<usize>| cell.map_or([0.0; 4], |k| adjoints[k]);
                 by.add(
                     value(before),
@@ -524,30 +558,6 @@ fn parabola_peak([before, middle, behind]: [f64; 3], [d_before, d_behind]: [f64;
     let slope = (slope_before * d_behind + slope_behind * d_before) / (d_before + d_behind);
     let offset = (-0.5 * slope / curvature).clamp(-0.5 * d_before, 0.5 * d_behind);
     (offset, offset * (slope + curvature * offset))
-}
-
-/// Smallest film of a plain bore, m, with its place: the journal axis is straight, so it lies at an
-/// edge, or anywhere along an aligned journal (the mid-plane is named).
-#[must_use]
-pub fn minimum_film(bearing: &Bearing, state: &JournalState) -> Extreme {
-    let at = |z: f64| {
-        let [x, y] = state.centre_at(z);
-        Extreme {
-            value: bearing.radial_clearance - x.hypot(y),
-            angle: y.atan2(x),
-            axial: z,
-        }
-    };
-    let half = 0.5 * bearing.width;
-    [at(-half), at(half)]
-        .into_iter()
-        .fold(at(0.0), |least, edge| {
-            if edge.value < least.value {
-                edge
-            } else {
-                least
-            }
-        })
 }
 
 /// Waviness of a state's position and of its motion, relative to the clearance.

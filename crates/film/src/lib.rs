@@ -24,10 +24,14 @@ pub mod integrals;
 pub mod journal_state;
 pub mod linear;
 pub mod mirror;
+pub mod narrowest;
 pub mod reynolds;
 pub mod richardson;
+pub mod shape;
+mod shape_table;
 pub mod solver;
 pub mod supply;
+pub mod surfaces;
 
 pub use bearing::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
@@ -39,4 +43,5 @@ pub use force::{
 };
 pub use grid::Grid;
 pub use journal_state::JournalState;
+pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;

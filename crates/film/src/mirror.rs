@@ -28,7 +28,12 @@ pub fn half_of(bearing: &Bearing, grid: &Grid) -> Option<Grid> {
         .zip(faces.iter().rev())
         .all(|(a, b)| (a + b).abs() < 1e-12 * width);
     let feeds_are_central = bearing.feeds.iter().all(|feed| feed.position == 0.0);
-    if !is_mirrored || !feeds_are_central || !grid.n_axial().is_multiple_of(2) {
+    let shapes_are_mirrored = bearing.bore.is_mirrored() && bearing.journal.is_mirrored();
+    if !is_mirrored
+        || !feeds_are_central
+        || !shapes_are_mirrored
+        || !grid.n_axial().is_multiple_of(2)
+    {
         return None;
     }
     let mut half = faces[..=grid.n_axial() / 2].to_vec();

@@ -19,11 +19,13 @@ use crate::force::{
 use crate::frame::Frame;
 use crate::gap::AngleTables;
 use crate::grid::Grid;
-use crate::integrals::{SolvedFilm, Units, minimum_film, relative_motion};
+use crate::integrals::{SolvedFilm, Units, relative_motion};
 use crate::journal_state::JournalState;
 use crate::mirror::{Extent, half_of};
+use crate::narrowest::GapSearch;
 use crate::reynolds::{Cell, Storage};
 use crate::supply::mark_fed_cells;
+use crate::surfaces::Surfaces;
 use sommerfeld_oil::Lubricant;
 
 /// A film solved on a grid: the [`FilmForce`] with fields.
@@ -35,6 +37,8 @@ pub struct FilmSolver {
     extent: Extent,
     grid: Grid,
     angles: AngleTables,
+    surfaces: Surfaces,
+    search: GapSearch,
     film: FilmState,
     /// The same bearing on half the cells: where a cold start gets its set from.
     coarse: Option<Box<FilmSolver>>,
@@ -115,6 +119,18 @@ impl FilmSolver {
                          of centres cannot hold them",
             });
         }
+        let is_round = !bearing.bore.varies_around() && !bearing.journal.varies_around();
+        if frame == Frame::LineOfCentres && !is_round {
+            return Err(FilmError::Unsupported {
+                reason: "a bore or journal that is not round needs inlet = \"cyclic\": a grid that \
+                         follows the line of centres cannot hold it",
+            });
+        }
+        if bearing.journal.has_steps() {
+            return Err(FilmError::Unsupported {
+                reason: "a journal has no offset halves: its steps would turn through the cells",
+            });
+        }
         let coarse = match grid.coarsened() {
             Some(coarse) => {
                 let solver = Self::on_grid(bearing, lubricant, coarse, frame, extent)?;
@@ -131,6 +147,8 @@ impl FilmSolver {
             frame,
             extent,
             angles,
+            surfaces: Surfaces::new(bearing, &grid),
+            search: GapSearch::of(bearing),
             grid,
             coarse,
         })
@@ -194,14 +212,14 @@ impl FilmSolver {
         if self.extent == Extent::Half && (state.tilt, state.tilt_rate) != ([0.0; 2], [0.0; 2]) {
             return Err(FilmError::NoTilt);
         }
-        let least = minimum_film(&self.bearing, state);
-        if least.value > 0.0 {
+        let least = self.search.narrowest(&self.bearing, state);
+        if least.gap > 0.0 {
             return Ok(());
         }
         Err(FilmError::Contact {
             angle_deg: least.angle.to_degrees(),
             axial_mm: 1e3 * least.axial,
-            gap_um: 1e6 * least.value,
+            gap_um: 1e6 * least.gap,
         })
     }
 
@@ -243,6 +261,8 @@ impl FilmSolver {
         let (position, rate) = relative_motion(&self.bearing, state);
         self.angles
             .fill_gap(&self.grid, &position, &rate, &mut film.gap);
+        self.surfaces.turn_to(&self.bearing, &self.grid, state);
+        self.surfaces.add_to(&self.grid, state, &mut film.gap);
 
         mark_fed_cells(
             &self.bearing,
@@ -268,6 +288,8 @@ impl FilmSolver {
             grid: &self.grid,
             angles: &self.angles,
             gap: &self.film.gap,
+            surfaces: &self.surfaces,
+            search: &self.search,
             operator: &self.film.operator,
             set: &self.film.set,
             pressure: &self.film.pressure,
@@ -325,7 +347,7 @@ impl FilmForce for FilmSolver {
     }
 
     fn minimum_gap(&self, state: &JournalState) -> f64 {
-        self.bearing.minimum_gap(state)
+        self.search.narrowest(&self.bearing, state).gap
     }
 
     fn linearise(

@@ -6,7 +6,8 @@ mod common;
 
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
-    Bearing, Cavitation, Feed, FeedLine, FilmForce, FilmSolver, Inlet, JournalState, Outcome, Step,
+    Bearing, Cavitation, Feature, Feed, FeedLine, FilmForce, FilmSolver, Inlet, JournalState,
+    Outcome, ProfileTable, Shape, Step,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -128,6 +129,41 @@ fn an_update_allocates_nothing_after_the_first() {
             assert_eq!(made, 0, "{cavitation:?} {step:?}: {updates} updates");
         }
     }
+    // With profiles that turn, steps and tables.
+    let nodes = (0..32).map(|k| 0.19 * f64::from(k)).collect();
+    let offsets = (0..64).map(|k| 1e-7 * f64::from(k % 7)).collect();
+    let table = ProfileTable::new(nodes, vec![-0.015, 0.015], offsets).unwrap();
+    let bearing = Bearing {
+        bore: Shape::of([
+            Feature::OffsetHalves {
+                shift: 10e-6,
+                joint: 0.0,
+            },
+            Feature::Table(table),
+        ]),
+        journal: Shape::of([Feature::Harmonic {
+            order: 2,
+            amplitude: 2e-6,
+            phase: 0.0,
+        }]),
+        ..plain()
+    };
+    let mut film = FilmSolver::new(&bearing, &oil(), [64, 16]).unwrap();
+    let step = Step::Implicit {
+        duration,
+        after: 0.0,
+    };
+    film.linearise(&state(&bearing, 0, duration), step, &conditions())
+        .unwrap();
+    film.accept_step();
+    let before = allocations();
+    for k in 1..=10 {
+        let state = state(&bearing, k, duration);
+        film.linearise(&state, step, &conditions()).unwrap();
+        assert!(film.minimum_gap(&state) > 0.0);
+        film.accept_step();
+    }
+    assert_eq!(allocations(), before, "with profiles");
     // The counter counts.
     let before = allocations();
     drop(std::hint::black_box(vec![0_u8; 64]));

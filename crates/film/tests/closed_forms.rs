@@ -4,7 +4,7 @@
 use sommerfeld_film::closed_form::{infinitely_long, short};
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Ends, FilmForce, FilmShear, Inlet, JournalState,
-    LongBearingFilm, MobilityFilm, ShortBearingFilm, Step,
+    LongBearingFilm, MobilityFilm, Shape, ShortBearingFilm, Step,
 };
 
 const CONDITIONS: Conditions<'static> = Conditions {
@@ -18,6 +18,8 @@ fn bearing() -> Bearing {
         diameter: 0.05,
         width: 0.02,
         radial_clearance: 25e-6,
+        bore: Shape::cylindrical(),
+        journal: Shape::cylindrical(),
         feeds: Vec::new(),
         ambient_pressure: 0.0,
         cavitation_pressure: 0.0,

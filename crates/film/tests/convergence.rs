@@ -7,8 +7,8 @@ mod common;
 
 use common::{big_end, conditions, least_squares_order, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmForce, FilmSolver,
-    JournalState, Step,
+    Bearing, Carrier, Cavitation, Ends, Feature, Feed, FeedLine, FeedShape, FilmForce, FilmSolver,
+    JournalState, Shape, Step,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
@@ -209,6 +209,37 @@ fn rupture_mass_conserving() {
             ..big_end()
         },
         state: aligned(0.6),
+        least_order: 1.7,
+    });
+}
+
+#[test]
+fn smooth_shape() {
+    check(&Case {
+        name: "smooth-shape",
+        words: "plain bearing in air, eps 0.5, bore with waves of order 2 (10 um) and 3 (2 um), crowned \
+                journal (4 um); closure reynolds",
+        bearing: Bearing {
+            cavitation: Cavitation::Reynolds,
+            bore: Shape::of([
+                Feature::Harmonic {
+                    order: 2,
+                    amplitude: 10e-6,
+                    phase: 0.3,
+                },
+                Feature::Harmonic {
+                    order: 3,
+                    amplitude: 2e-6,
+                    phase: 1.0,
+                },
+            ]),
+            journal: Shape::of([Feature::Crowning {
+                end_offset: -4e-6,
+                half_width: 0.5 * big_end().width,
+            }]),
+            ..big_end()
+        },
+        state: aligned(0.5),
         least_order: 1.7,
     });
 }

@@ -11,7 +11,7 @@ mod common;
 use common::{conditions, oil};
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmForce, FilmShear,
-    FilmSolver, Inlet, JournalState, Outcome, Step,
+    FilmSolver, Inlet, JournalState, Outcome, Shape, Step,
 };
 use std::f64::consts::TAU;
 
@@ -66,6 +66,8 @@ fn random_bearing(random: &mut Random) -> Bearing {
         diameter,
         width: diameter / 10_f64.powf(random.between(-0.602, 1.0)),
         radial_clearance: 0.5 * diameter * random.between(2e-4, 3e-3),
+        bore: Shape::cylindrical(),
+        journal: Shape::cylindrical(),
         feeds: Vec::new(),
         ambient_pressure: random.pick(&[0.0, 0.0, 1e5]),
         cavitation_pressure: random.pick(&[0.0, 0.0, -0.5e5]),

@@ -102,7 +102,7 @@ impl Results {
 #[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 mod tests {
     use super::*;
-    use sommerfeld_film::{Cavitation, Ends, FilmShear, Inlet};
+    use sommerfeld_film::{Cavitation, Ends, FilmShear, Inlet, Shape};
 
     /// A bearing with R/c = 400, so that vortices come at 822.
     fn bearing() -> Bearing {
@@ -110,6 +110,8 @@ mod tests {
             diameter: 0.08,
             width: 0.04,
             radial_clearance: 1e-4,
+            bore: Shape::cylindrical(),
+            journal: Shape::cylindrical(),
             feeds: Vec::new(),
             ambient_pressure: 0.0,
             cavitation_pressure: 0.0,

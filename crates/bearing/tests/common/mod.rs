@@ -1,7 +1,7 @@
 //! What the tests of this crate share.
 #![allow(dead_code, clippy::unwrap_used)]
 
-use sommerfeld_film::{Bearing, Cavitation, Conditions, Ends, FilmShear, Inlet};
+use sommerfeld_film::{Bearing, Cavitation, Conditions, Ends, FilmShear, Inlet, Shape};
 
 pub const CONDITIONS: Conditions<'static> = Conditions {
     temperature: 373.0,
@@ -14,6 +14,8 @@ pub fn plain_bearing(diameter: f64, width: f64, radial_clearance: f64) -> Bearin
         diameter,
         width,
         radial_clearance,
+        bore: Shape::cylindrical(),
+        journal: Shape::cylindrical(),
         feeds: Vec::new(),
         ambient_pressure: 0.0,
         cavitation_pressure: 0.0,

@@ -41,6 +41,11 @@ impl PlainFilm {
                 reason: "closed-form films need equal ambient and cavitation pressure: use model = \"field\"",
             });
         }
+        if !bearing.is_plain() {
+            return Err(FilmError::Unsupported {
+                reason: "closed-form films are those of a cylindrical bore and journal: use model = \"field\"",
+            });
+        }
         if bearing.film_shear != FilmShear::FullWidth {
             return Err(FilmError::Unsupported {
                 reason: "closed-form films shear over the full width: use film_shear = \"full-width\"",

@@ -6,6 +6,7 @@ pub mod recomputed;
 
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
+    Shape,
 };
 use sommerfeld_oil::Lubricant;
 
@@ -15,6 +16,8 @@ pub fn big_end() -> Bearing {
         diameter: 0.072,
         width: 0.030,
         radial_clearance: 36e-6,
+        bore: Shape::cylindrical(),
+        journal: Shape::cylindrical(),
         feeds: Vec::new(),
         ambient_pressure: 0.0,
         cavitation_pressure: 0.0,

@@ -48,8 +48,37 @@ pub struct Recomputed {
     pub content: Vec<f64>,
 }
 
+/// Offset of one surface outward of its circle, m, at an angle of the frame and an axial position, m.
+pub type Offset<'a> = &'a dyn Fn(f64, f64) -> f64;
+
+/// How far both surfaces stand outward of their circles.
+#[derive(Clone, Copy)]
+pub struct Offsets<'a> {
+    pub bore: Offset<'a>,
+    pub journal: Offset<'a>,
+}
+
+impl Offsets<'_> {
+    fn widening(&self, angle: f64, z: f64) -> f64 {
+        (self.bore)(angle, z) - (self.journal)(angle, z)
+    }
+}
+
+/// Gauss-Legendre over an interval: mean of `value`, six places.
+fn mean_of([a, b]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
+    let nodes = [
+        (0.238_619_186_083_196_9, 0.467_913_934_572_691),
+        (0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
+        (0.932_469_514_203_152, 0.171_324_492_379_170_4),
+    ];
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let pair = |(x, w): (f64, f64)| w * (value(middle - x * half) + value(middle + x * half));
+    0.5 * nodes.into_iter().map(pair).sum::<f64>()
+}
+
 struct Film<'a> {
     bearing: &'a Bearing,
+    offsets: Offsets<'a>,
     state: &'a JournalState,
     viscosity: f64,
     angles: &'a [f64],
@@ -68,6 +97,7 @@ impl Film<'_> {
     fn thickness(&self, angle: f64, z: f64) -> f64 {
         let direction = [angle.cos(), angle.sin()];
         self.bearing.radial_clearance - along(self.state.position, self.state.tilt, z, direction)
+            + self.offsets.widening(angle, z)
     }
 
     /// Mean of cos and sin over station i.
@@ -90,16 +120,24 @@ impl Film<'_> {
                 z,
                 self.mean_direction(i),
             )
+            + mean_of([self.angles[i], self.angles[i + 1]], |angle| {
+                self.offsets.widening(angle, z)
+            })
     }
 
     fn mean_rate(&self, i: usize, j: usize) -> f64 {
         let z = 0.5 * (self.places[j] + self.places[j + 1]);
-        -along(
-            self.state.velocity,
-            self.state.tilt_rate,
-            z,
-            self.mean_direction(i),
-        )
+        let [from, to] = [self.angles[i], self.angles[i + 1]];
+        // A profile that turns falls by its slope times its speed.
+        let falls = |offset: Offset<'_>| (offset(to, z) - offset(from, z)) / (to - from);
+        self.state.journal_speed * falls(self.offsets.journal)
+            - self.state.shell_speed * falls(self.offsets.bore)
+            - along(
+                self.state.velocity,
+                self.state.tilt_rate,
+                z,
+                self.mean_direction(i),
+            )
     }
 
     /// Growth of a full film in cell (i, j) without a past, m3/s. What a ruptured one gains where the
@@ -173,6 +211,22 @@ pub fn recompute(
     conserves_mass: bool,
     past: Past<'_>,
 ) -> Recomputed {
+    let round = Offsets {
+        bore: &|_, _| 0.0,
+        journal: &|_, _| 0.0,
+    };
+    recompute_shaped(solver, state, viscosity, conserves_mass, past, round)
+}
+
+/// The same for surfaces that are no cylinders.
+pub fn recompute_shaped(
+    solver: &FilmSolver,
+    state: &JournalState,
+    viscosity: f64,
+    conserves_mass: bool,
+    past: Past<'_>,
+    offsets: Offsets<'_>,
+) -> Recomputed {
     let bearing = solver.bearing();
     let radius = 0.5 * bearing.diameter;
     let grid = solver.grid();
@@ -180,6 +234,7 @@ pub fn recompute(
     let (n, m) = (field.angles.len(), field.axial.len());
     let mut film = Film {
         bearing,
+        offsets,
         state,
         viscosity,
         angles: &grid.around_faces,

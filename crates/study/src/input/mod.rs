@@ -11,6 +11,7 @@ mod files;
 mod json_schema;
 mod keys;
 pub mod load_file;
+mod profile_file;
 mod read;
 pub mod schema;
 mod study;

@@ -36,6 +36,8 @@ pub(super) struct Reading<'t> {
     pub(super) entries: Entries,
     /// One set of entries per `[[bearing.groove]]`, with the place of its header.
     pub(super) grooves: Vec<(Span<usize>, Entries)>,
+    /// The same for every other list of tables, by its key.
+    pub(super) lists: BTreeMap<&'static str, Vec<(Span<usize>, Entries)>>,
     pub(super) errors: Vec<InputError>,
 }
 
@@ -47,6 +49,7 @@ impl<'t> Reading<'t> {
             text,
             entries: Entries::new(),
             grooves: Vec::new(),
+            lists: BTreeMap::new(),
             errors: Vec::new(),
         };
         let (document, syntax) = DeTable::parse_recoverable(text);
@@ -208,7 +211,7 @@ impl<'t> Reading<'t> {
             (Kind::TableList, DeValue::Table(table)) => {
                 let mut group = Entries::new();
                 self.table(key.path, table, &mut group);
-                self.grooves.push((name.span(), group));
+                self.keep_group(key, name.span(), group);
                 Some(Value::Table)
             }
             (Kind::Limit(dimension, range), DeValue::Table(table)) => {
@@ -232,7 +235,15 @@ impl<'t> Reading<'t> {
         }
     }
 
-    /// Reads `[[bearing.groove]]`.
+    fn keep_group(&mut self, key: &'static Key, header: Span<usize>, group: Entries) {
+        let list = match key.path {
+            "bearing.groove" => &mut self.grooves,
+            path => self.lists.entry(path).or_default(),
+        };
+        list.push((header, group));
+    }
+
+    /// Reads a list such as `[[bearing.groove]]`.
     fn groups(&mut self, key: &'static Key, list: &[Spanned<DeValue<'_>>]) -> Option<Value> {
         for element in list {
             let DeValue::Table(table) = element.get_ref() else {
@@ -244,7 +255,7 @@ impl<'t> Reading<'t> {
             };
             let mut group = Entries::new();
             self.table(key.path, table, &mut group);
-            self.grooves.push((element.span(), group));
+            self.keep_group(key, element.span(), group);
         }
         Some(Value::Table)
     }

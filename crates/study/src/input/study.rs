@@ -30,7 +30,7 @@ pub struct Study {
     pub files: Vec<PathBuf>,
     /// Its text, without a byte order mark.
     pub text: String,
-    /// Identifies study text and load file: equal hashes are the same calculation.
+    /// Identifies study text and the tables it names: equal hashes are the same calculation.
     pub input_hash: String,
 }
 

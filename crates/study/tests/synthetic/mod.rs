@@ -6,7 +6,7 @@
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Ends, Extreme, Feed, FeedFlow, FeedLine, FeedShape, FilmShear,
-    FilmSummary, Inlet, JournalState, Outcome, Reaction,
+    FilmSummary, Inlet, JournalState, Outcome, Reaction, Shape,
 };
 use sommerfeld_study::limits::{Limit, Quantity};
 use sommerfeld_study::models;
@@ -28,6 +28,8 @@ pub fn bearing() -> Bearing {
         diameter: 0.072,
         width: 0.030,
         radial_clearance: CLEARANCE,
+        bore: Shape::cylindrical(),
+        journal: Shape::cylindrical(),
         feeds: vec![
             Feed {
                 shape: FeedShape::Hole { diameter: 0.006 },

@@ -4,7 +4,7 @@ use super::Checker;
 use crate::input::schema::Mode;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
-use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet};
+use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet, Shape};
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
 use std::ops::Range;
 
@@ -32,6 +32,8 @@ impl Checker<'_> {
             diameter: diameter?,
             width: width?,
             radial_clearance: clearance?,
+            bore: Shape::cylindrical(),
+            journal: Shape::cylindrical(),
             feeds: Vec::new(),
             ambient_pressure: ambient_pressure?,
             cavitation_pressure: cavitation_pressure?,
@@ -43,6 +45,8 @@ impl Checker<'_> {
         self.check_pressures(&bearing);
         self.check_inlet(&bearing);
         bearing.feeds = self.feeds(&bearing);
+        (bearing.bore, bearing.journal) = self.shapes(&bearing)?;
+        self.check_shapes(&bearing)?;
         Some(bearing)
     }
 

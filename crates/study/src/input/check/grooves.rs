@@ -411,7 +411,7 @@ impl GrooveCheck<'_, '_> {
 }
 
 /// Metres as millimetres for messages, without round-off tails.
-fn mm(metres: f64) -> f64 {
+pub(super) fn mm(metres: f64) -> f64 {
     (metres * 1e9).round() / 1e6
 }
 

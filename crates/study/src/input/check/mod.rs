@@ -3,6 +3,7 @@
 mod bearing;
 mod duty;
 mod grooves;
+mod shapes;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};
@@ -210,7 +211,7 @@ impl Checker<'_> {
             let section = key.section();
             let is_due = key.presence == Presence::Required
                 && key.used_by.contains(&self.mode)
-                && section != "bearing.groove"
+                && !find(section).is_some_and(|section| matches!(section.kind, Kind::TableList))
                 && !self.reading.was_given(key.path)
                 && !self.was_misspelt(key);
             // A quantity given in place of a law has no keys; a missing section is one error.
@@ -223,16 +224,20 @@ impl Checker<'_> {
                 self.errors.push(error);
             }
         }
-        for (header, group) in &self.reading.grooves {
-            if self.errors.len() >= MOST_ERRORS {
-                return;
-            }
-            for key in KEYS.iter().filter(|key| key.section() == "bearing.groove") {
-                if key.presence == Presence::Required
-                    && !group.contains_key(key.path)
-                    && !self.was_misspelt(key)
-                {
-                    self.errors.push(missing(&self.reading, key, Some(header)));
+        let grooves = [("bearing.groove", &self.reading.grooves)];
+        let others = self.reading.lists.iter().map(|(path, list)| (*path, list));
+        for (path, list) in grooves.into_iter().chain(others) {
+            for (header, group) in list {
+                if self.errors.len() >= MOST_ERRORS {
+                    return;
+                }
+                for key in KEYS.iter().filter(|key| key.section() == path) {
+                    if key.presence == Presence::Required
+                        && !group.contains_key(key.path)
+                        && !self.was_misspelt(key)
+                    {
+                        self.errors.push(missing(&self.reading, key, Some(header)));
+                    }
                 }
             }
         }
