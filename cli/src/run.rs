@@ -5,7 +5,7 @@ use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
 use sommerfeld_study::results::status_name;
-use sommerfeld_study::{Outcome, RunError, RunSummary};
+use sommerfeld_study::{Outcome, RunError, RunSummary, run_on};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
@@ -44,7 +44,8 @@ pub fn run(arguments: &RunArguments) -> Exit {
         .unwrap_or_else(|| default_directory(&arguments.file));
     let stop = stop_flag();
     let mut progress = Progress::new(stop.clone());
-    let ended = sommerfeld_study::run(&study, &out, &mut |event| progress.show(&event));
+    let threads = arguments.threads.map(usize::from);
+    let ended = run_on(&study, &out, threads, &mut |event| progress.show(&event));
     progress.finish();
     match ended {
         Ok(summary) => {
@@ -62,9 +63,13 @@ pub fn run(arguments: &RunArguments) -> Exit {
             eprintln!("error: {}: {error}", arguments.file.display());
             Exit::Refused
         }
-        Err(RunError::Output(error)) => {
+        Err(error) => {
             eprintln!("error: {error}");
-            Exit::MachineFailed
+            match error {
+                RunError::Ledger(error) if error.is_refusal() => Exit::Refused,
+                RunError::InputChanged(_) => Exit::Refused,
+                _ => Exit::MachineFailed,
+            }
         }
     }
 }

@@ -13,8 +13,10 @@ pub mod load_file;
 mod read;
 pub mod schema;
 mod study;
+mod sweep;
 pub mod units;
 mod values;
+mod vary;
 
 pub use error::{InputError, InputErrors, MessageKind, Place, render_all};
 pub use explain::{explain, list_keys};
@@ -25,3 +27,4 @@ pub use study::{
     Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, SteadyLoad,
     Study, StudyLimit, Subject, TiltCondition,
 };
+pub use sweep::{Keep, KeyStep, SweepMode, SweepPlan, VariedKey, VariedValue};

@@ -4,7 +4,7 @@ mod csv;
 mod html;
 mod json;
 
-pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
+pub use csv::{CaseTable, CycleTable, FieldTable, case_table, cycle_table, field_table};
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
 
@@ -31,7 +31,13 @@ pub trait ResultWriter: Sync {
 
 /// Every format, in the order in which they are written: the summary last, so that a directory
 /// that holds it holds everything.
-pub const WRITERS: &[&dyn ResultWriter] = &[&CycleTable, &FieldTable, &HtmlReport, &SummaryJson];
+pub const WRITERS: &[&dyn ResultWriter] = &[
+    &CycleTable,
+    &FieldTable,
+    &CaseTable,
+    &HtmlReport,
+    &SummaryJson,
+];
 
 /// Results that could not be written.
 #[derive(Debug, Error)]

@@ -11,6 +11,7 @@ mod figures;
 mod format;
 mod page;
 mod steady;
+mod sweep;
 
 use crate::results::{Body, Results};
 use minijinja::{Environment, Value, context};
@@ -33,6 +34,7 @@ pub fn render(results: &Results) -> Result<String, minijinja::Error> {
         Body::Steady(steady) => steady::fill(&mut page, header, steady),
         Body::LoadCycle(cycle) => cycle::fill(&mut page, header, cycle),
         Body::Dimensionless(integrals) => dimensionless::fill(&mut page, header, integrals),
+        Body::Sweep(sweep) => sweep::fill(&mut page, sweep),
     };
     let data = script_safe(&data.to_string());
     let mut environment = Environment::new();

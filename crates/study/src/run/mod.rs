@@ -3,8 +3,10 @@
 mod cycle;
 mod inputs;
 mod steady;
+mod sweep;
 
 use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};
+use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
 use crate::output::{OutputError, prepare_directory, write_all};
@@ -22,6 +24,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use steady::{solve_load, solve_state};
+use sweep::{run_sweep, solve_sweep};
 use thiserror::Error;
 
 /// Takes the signs of life of a run and answers whether to go on.
@@ -45,6 +48,17 @@ pub enum RunError {
     /// Results could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),
+    /// The ledger of a sweep cannot be used.
+    #[error("{0}")]
+    Ledger(#[from] LedgerError),
+    /// The base study of a sweep, or a file it names, is not the one that was checked.
+    #[error(
+        "{0}, or a file it names, has changed while the sweep ran\n  = hint: run the sweep again, in another directory unless the change is taken back"
+    )]
+    InputChanged(String),
+    /// The system gives no threads.
+    #[error("no threads can be started: {0}")]
+    Threads(String),
 }
 
 /// Runs `study` and writes its results into `directory`.
@@ -56,6 +70,23 @@ pub fn run(
     directory: &Path,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
+    run_on(study, directory, None, progress)
+}
+
+/// As [`run`], the cases of a sweep on this number of threads; without a number one for each
+/// processor. The results do not depend on it.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_on(
+    study: &Study,
+    directory: &Path,
+    threads: Option<usize>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<RunSummary, RunError> {
+    if let Subject::Sweep(plan) = &study.subject {
+        return run_sweep(study, plan, directory, threads, progress);
+    }
     // Better told before a long run than after it.
     prepare_directory(directory)?;
     let results = solve(study, progress)?;
@@ -71,6 +102,7 @@ pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Resul
     let start = Instant::now();
     let mut header = header(study);
     let body = match &study.subject {
+        Subject::Sweep(plan) => return Ok(solve_sweep(study, plan, progress)),
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.duty {
             Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
@@ -116,6 +148,8 @@ fn models_of(study: &Study) -> Vec<Model> {
         .into_iter()
         .collect();
     match &study.subject {
+        // Its cases say what they used.
+        Subject::Sweep(_) => used.clear(),
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
         Subject::Bearing(case) => {
             if study.film.model.is_field() {
