@@ -4,7 +4,8 @@ use crate::commands;
 use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
-use sommerfeld_study::results::status_name;
+use sommerfeld_study::cases::CaseStatus;
+use sommerfeld_study::results::{Body, Results, status_name};
 use sommerfeld_study::{Outcome, RunError, RunSummary, run_on};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -50,7 +51,7 @@ pub fn run(arguments: &RunArguments) -> Exit {
     match ended {
         Ok(summary) => {
             tell(&summary, &out);
-            if stop.load(Ordering::Relaxed) && summary.results.header.status != Outcome::Converged {
+            if stop.load(Ordering::Relaxed) && is_unfinished(&summary.results) {
                 eprintln!("interrupted: run the same command again to finish it");
                 Exit::Interrupted
             } else if summary.results.header.status == Outcome::Converged {
@@ -71,6 +72,14 @@ pub fn run(arguments: &RunArguments) -> Exit {
                 _ => Exit::MachineFailed,
             }
         }
+    }
+}
+
+/// Whether a run that was stopped has something left to do.
+fn is_unfinished(results: &Results) -> bool {
+    match &results.body {
+        Body::Sweep(sweep) => sweep.count(CaseStatus::NotRun) > 0,
+        _ => results.header.status != Outcome::Converged,
     }
 }
 

@@ -114,6 +114,8 @@ pub struct VariedColumn {
     pub key: String,
     /// Unit of the numbers, `-` for bare ones; empty where the values are not numbers.
     pub unit: String,
+    /// It takes more than one value, or none does: what tells the cases apart.
+    pub tells_apart: bool,
 }
 
 /// A column of numbers.
@@ -280,14 +282,21 @@ impl SweepResults {
         }))
     }
 
+    /// What tells a case from the others: `bearing.width = 30 mm`.
+    #[must_use]
+    pub fn inputs(&self, row: &CaseRow) -> String {
+        let inputs = self.varied.iter().zip(&row.inputs);
+        let inputs: Vec<String> = inputs
+            .filter(|(column, _)| column.tells_apart)
+            .map(|(column, value)| format!("{} = {value}", column.key))
+            .collect();
+        inputs.join(", ")
+    }
+
     /// A case in words: `case 3 (bearing.width = 30 mm)`.
     #[must_use]
     pub fn describe(&self, row: &CaseRow) -> String {
-        let inputs = self.varied.iter().zip(&row.inputs);
-        let inputs: Vec<String> = inputs
-            .map(|(column, value)| format!("{} = {value}", column.key))
-            .collect();
-        format!("case {} ({})", row.number, inputs.join(", "))
+        format!("case {} ({})", row.number, self.inputs(row))
     }
 }
 

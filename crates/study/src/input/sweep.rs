@@ -147,11 +147,18 @@ impl SweepPlan {
         pairs.filter_map(|(key, at)| key.values.get(at)).collect()
     }
 
-    /// The keys and values of a case in words: `bearing.width = 30 mm, operation.speed = 900 rpm`.
+    /// Whether a varied key tells the cases apart: it takes more than one value, or none does.
+    #[must_use]
+    pub fn tells_apart(&self, key: &VariedKey) -> bool {
+        key.values.len() > 1 || self.count() <= 1
+    }
+
+    /// What tells a case from the others, in words: `bearing.width = 30 mm, operation.speed = 900 rpm`.
     #[must_use]
     pub fn describe(&self, index: usize) -> String {
         let pairs = self.varied.iter().zip(self.values(index));
         pairs
+            .filter(|(key, _)| self.tells_apart(key))
             .map(|(key, value)| format!("{} = {}", key.path, value.shown))
             .collect::<Vec<_>>()
             .join(", ")

@@ -2,7 +2,7 @@
 
 use super::format::{MICROMETRE, ONE, Unit, Units};
 use super::page::{Card, Cell, Check, Figure, Page, Table};
-use crate::cases::{CaseRow, CaseStatus, SweepResults};
+use crate::cases::{CaseRow, CaseStatus, SweepResults, VariedColumn};
 use crate::limits::{Quantity, Side};
 use serde_json::{Value, json};
 
@@ -290,13 +290,9 @@ fn case_table(sweep: &SweepResults, shown: &[Shown]) -> Table {
 }
 
 fn case_cells(sweep: &SweepResults, shown: &[Shown], row: &CaseRow) -> Vec<Cell> {
-    let inputs = sweep.varied.iter().zip(&row.inputs);
-    let inputs: Vec<String> = inputs
-        .map(|(column, value)| format!("{} = {value}", column.key))
-        .collect();
     let mut cells = vec![
         Cell::number(row.number.to_string()),
-        Cell::text(inputs.join(", ")),
+        Cell::text(sweep.inputs(row)),
         Cell {
             text: row.status.name().replace('-', " "),
             class: if row.status == CaseStatus::Converged {
@@ -327,10 +323,16 @@ fn case_cells(sweep: &SweepResults, shown: &[Shown], row: &CaseRow) -> Vec<Cell>
     cells
 }
 
+/// The varied keys that tell the cases apart, with their places.
+fn telling(sweep: &SweepResults) -> impl Iterator<Item = (usize, &VariedColumn)> {
+    let columns = sweep.varied.iter().enumerate();
+    columns.filter(|(_, column)| column.tells_apart)
+}
+
 /// Which cases share a line: `all` along one key, `second` one line for each value of the second,
 /// `none` where a line would mean nothing.
 fn joined(sweep: &SweepResults) -> &'static str {
-    match (sweep.varied.len(), sweep.mode) {
+    match (telling(sweep).count(), sweep.mode) {
         (0 | 1, _) | (_, "zip") => "all",
         (2, _) => "second",
         _ => "none",
@@ -341,7 +343,7 @@ fn joined(sweep: &SweepResults) -> &'static str {
 fn data(sweep: &SweepResults, shown: &[Shown]) -> Value {
     let stride = sweep.cases.len().div_ceil(MOST_MARKS).max(1);
     let rows: Vec<&CaseRow> = sweep.cases.iter().step_by(stride).collect();
-    let inputs: Vec<Value> = (sweep.varied.iter().enumerate())
+    let inputs: Vec<Value> = telling(sweep)
         .map(|(at, column)| {
             let label = match column.unit.as_str() {
                 "" | "-" => column.key.clone(),

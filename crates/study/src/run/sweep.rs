@@ -405,6 +405,7 @@ fn assemble(study: &Study, plan: &SweepPlan, records: &BTreeMap<usize, CaseRecor
             .map(|key| VariedColumn {
                 key: key.path.clone(),
                 unit: key.unit.clone(),
+                tells_apart: plan.tells_apart(key),
             })
             .collect(),
         ..SweepResults::default()
