@@ -409,7 +409,7 @@ fn check_says_how_many_cases() {
     let desk = Desk::new(
         BASE,
         "mode = \"zip\"\nvary = { \"operation.speed\" = [\"1000 rpm\", \"2000 rpm\"], \
-         \"bearing.width\" = { from = \"30 mm\", to = \"40 mm\", count = 2 } }\n",
+         \"bearing.width\" = { from = \"50 mm\", to = \"60 mm\", count = 2 } }\n",
     );
     let check = sommerfeld()
         .arg("check")
@@ -420,7 +420,7 @@ fn check_says_how_many_cases() {
     assert_eq!(code, Some(0), "{text}");
     assert!(text.contains("cases     2, every one checked"), "{text}");
     assert!(
-        text.contains("bearing.width, 2 values, 30 mm to 40 mm"),
+        text.contains("bearing.width, 2 values, 50 mm to 60 mm"),
         "{text}"
     );
     assert!(!desk.path("sweep").exists());

@@ -265,42 +265,56 @@ impl Reading<'_> {
                     .hinting("give both ends in the same unit"),
             ));
         }
-        let number = count.get_ref().as_integer();
-        let number = number.and_then(|n| i64::from_str_radix(n.as_str(), n.radix()).ok());
-        let number = number.and_then(|n| usize::try_from(n).ok());
-        let Some(number) = number.filter(|n| (2..=MOST_CASES).contains(n)) else {
-            let message = format!("the `count` of `{path}` is not a number of values");
-            return Err(Box::new(
-                self.error(&count.span(), message)
-                    .of_key(path)
-                    .allowing(format!("a whole number from 2 to {MOST_CASES}")),
-            ));
-        };
-        let is_log = match given("scale").map(|value| (value, value.get_ref().as_str())) {
-            None | Some((_, Some("linear"))) => false,
-            Some((value, Some("log"))) => {
-                if first.min(last) <= 0.0 {
-                    let message = format!("the range of `{path}` reaches 0 or less");
-                    return Err(Box::new(
-                        self.error(&value.span(), message)
-                            .of_key(path)
-                            .hinting("a logarithmic range needs both ends above 0"),
-                    ));
-                }
-                true
-            }
-            Some((value, _)) => {
-                let message = format!("the range of `{path}` has an unknown scale");
-                return Err(Box::new(
-                    self.error(&value.span(), message)
-                        .of_key(path)
-                        .allowing("\"linear\", \"log\""),
-                ));
-            }
+        let number = self.range_count(path, count)?;
+        let is_log = match given("scale") {
+            Some(scale) => self.is_logarithmic(path, scale, first.min(last))?,
+            None => false,
         };
         Ok(spread(first, last, number, is_log)
             .map(|value| range_value(value, &unit))
             .collect())
+    }
+
+    fn range_count(
+        &self,
+        path: &str,
+        count: &Spanned<DeValue<'_>>,
+    ) -> Result<usize, Box<InputError>> {
+        let number = count.get_ref().as_integer();
+        let number = number.and_then(|n| i64::from_str_radix(n.as_str(), n.radix()).ok());
+        let number = number.and_then(|n| usize::try_from(n).ok());
+        number
+            .filter(|n| (2..=MOST_CASES).contains(n))
+            .ok_or_else(|| {
+                let message = format!("the `count` of `{path}` is not a number of values");
+                Box::new(
+                    self.error(&count.span(), message)
+                        .of_key(path)
+                        .allowing(format!("a whole number from 2 to {MOST_CASES}")),
+                )
+            })
+    }
+
+    /// Whether the scale of a range is logarithmic; `least` is its smaller end.
+    fn is_logarithmic(
+        &self,
+        path: &str,
+        scale: &Spanned<DeValue<'_>>,
+        least: f64,
+    ) -> Result<bool, Box<InputError>> {
+        let refuse = |message: String| self.error(&scale.span(), message).of_key(path);
+        match scale.get_ref().as_str() {
+            Some("linear") => Ok(false),
+            Some("log") if least > 0.0 => Ok(true),
+            Some("log") => Err(Box::new(
+                refuse(format!("the range of `{path}` reaches 0 or less"))
+                    .hinting("a logarithmic range needs both ends above 0"),
+            )),
+            _ => Err(Box::new(
+                refuse(format!("the range of `{path}` has an unknown scale"))
+                    .allowing("\"linear\", \"log\""),
+            )),
+        }
     }
 
     /// One key, one list: a key varied twice, or within another one, would have two values.

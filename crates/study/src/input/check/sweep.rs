@@ -276,7 +276,7 @@ impl Gathered {
             if count < total || message.file != plan.base_file {
                 let more = match count {
                     1 => String::new(),
-                    _ => format!(" (and in {} more)", count - 1),
+                    _ => format!(" and {} more", count - 1),
                 };
                 message.message = format!(
                     "case {} ({}){more}: {}",
