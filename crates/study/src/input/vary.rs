@@ -27,6 +27,8 @@ pub(super) struct Vary {
     pub(super) value_spans: Vec<Span<usize>>,
 }
 
+/// The values of a list with their places.
+type Listed = (Vec<VariedValue>, Vec<Span<usize>>);
 /// A number that a range starts or ends with, and its unit; empty for bare numbers.
 type Bound = (f64, String);
 
@@ -92,6 +94,15 @@ impl Reading<'_> {
                 ));
             }
         };
+        let sweep = (values.iter().zip(&value_spans)).find(|(value, _)| value.shown == "sweep");
+        if let Some((_, span)) = sweep.filter(|_| key.path == "analysis") {
+            let error = self
+                .error(span, "a case cannot be a sweep itself")
+                .of_key(path);
+            return Err(Box::new(
+                error.hinting("vary the keys of both in one sweep"),
+            ));
+        }
         let mut varied = VariedKey {
             path: path.to_owned(),
             steps,
@@ -174,7 +185,7 @@ impl Reading<'_> {
         path: &str,
         span: &Span<usize>,
         list: &[Spanned<DeValue<'_>>],
-    ) -> Result<(Vec<VariedValue>, Vec<Span<usize>>), Box<InputError>> {
+    ) -> Result<Listed, Box<InputError>> {
         if list.is_empty() {
             let error = self
                 .error(span, format!("`{path}` has an empty list of values"))

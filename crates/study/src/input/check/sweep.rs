@@ -227,12 +227,7 @@ fn check_case(plan: &SweepPlan, index: usize) -> Result<Study, InputErrors> {
     let text = plan
         .case_text(index)
         .map_err(|(key, why)| InputError::new(&plan.base_file, why).of_key(&key))?;
-    let study = plan.study_of(&text)?;
-    if study.analysis == Analysis::Sweep {
-        let error = InputError::new(&plan.base_file, "a case cannot be a sweep itself");
-        return Err(error.of_key("analysis").into());
-    }
-    Ok(study)
+    plan.study_of(&text)
 }
 
 /// Identifies the cases of a sweep and what they leave behind: equal hashes are the same results.
