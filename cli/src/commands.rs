@@ -1,7 +1,9 @@
 //! The commands.
 
 use crate::exit::Exit;
-use sommerfeld_study::input::{self, BearingCase, Duty, MessageKind, Study, Subject, render_all};
+use sommerfeld_study::input::{
+    self, BearingCase, Duty, MessageKind, Study, Subject, SweepPlan, render_all,
+};
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::{self, TEMPLATES};
 use std::fs::{self, OpenOptions};
@@ -59,7 +61,29 @@ fn subject(subject: &Subject) -> String {
             case.d_over_b, case.relative_eccentricity
         ),
         Subject::Bearing(case) => bearing(case),
+        Subject::Sweep(plan) => sweep(plan),
     }
+}
+
+/// What varies, with how many cases: every one of them was checked.
+fn sweep(plan: &SweepPlan) -> String {
+    let mut text = format!(
+        "  base      {}\n  cases     {}, every one checked\n",
+        plan.base_file,
+        plan.count()
+    );
+    for key in &plan.varied {
+        let (count, path) = (key.values.len(), &key.path);
+        let ends = match (key.values.first(), key.values.last()) {
+            (Some(first), Some(last)) if count > 1 => {
+                format!("{} to {}", first.shown, last.shown)
+            }
+            (Some(only), _) => only.shown.clone(),
+            _ => String::new(),
+        };
+        text += &format!("  varied    {path}, {count} values, {ends}\n");
+    }
+    text
 }
 
 fn bearing(case: &BearingCase) -> String {

@@ -4,8 +4,9 @@ use crate::commands;
 use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
+use sommerfeld_study::cases::CaseStatus;
 use sommerfeld_study::output::OutputError;
-use sommerfeld_study::results::status_name;
+use sommerfeld_study::results::{Body, Results, status_name};
 use sommerfeld_study::{Outcome, RunError, RunOptions, RunSummary};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -40,6 +41,7 @@ pub fn run(arguments: &RunArguments) -> Exit {
     let mut progress = Progress::new(stop.clone());
     let options = RunOptions {
         verify: arguments.verify,
+        threads: arguments.threads.map(usize::from),
     };
     let ended =
         sommerfeld_study::run_with(&study, &out, options, &mut |event| progress.show(&event));
@@ -48,9 +50,8 @@ pub fn run(arguments: &RunArguments) -> Exit {
         Ok(summary) => {
             tell(&summary, &out);
             let header = &summary.results.header;
-            let is_complete = header.status == Outcome::Converged
-                && !(arguments.verify && header.error.is_none());
-            if stop.load(Ordering::Relaxed) && !is_complete {
+            let is_unfinished = is_unfinished(&summary.results, arguments.verify);
+            if stop.load(Ordering::Relaxed) && is_unfinished {
                 eprintln!("interrupted: run the same command again to finish it");
                 Exit::Interrupted
             } else if header.status == Outcome::Converged {
@@ -63,12 +64,25 @@ pub fn run(arguments: &RunArguments) -> Exit {
             eprintln!("error: {}: {error}", arguments.file.display());
             Exit::Refused
         }
-        Err(RunError::Output(error)) => {
+        Err(error) => {
             eprintln!("error: {error}");
             match error {
-                OutputError::Taken { .. } => Exit::Refused,
+                RunError::Output(OutputError::Taken { .. }) => Exit::Refused,
+                RunError::Ledger(error) if error.is_refusal() => Exit::Refused,
+                RunError::InputChanged(_) => Exit::Refused,
                 _ => Exit::MachineFailed,
             }
+        }
+    }
+}
+
+/// Whether a run that was stopped has something left to do.
+fn is_unfinished(results: &Results, verify: bool) -> bool {
+    match &results.body {
+        Body::Sweep(sweep) => sweep.count(CaseStatus::NotRun) > 0,
+        _ => {
+            let header = &results.header;
+            header.status != Outcome::Converged || (verify && header.error.is_none())
         }
     }
 }

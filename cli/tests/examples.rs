@@ -229,6 +229,51 @@ fn one_axis_cycle_of_a_short_bearing() {
 }
 
 #[test]
+fn clearance_of_a_big_end() {
+    let ran = run(&root().join("examples/07-clearance-sweep/study.toml")).converged();
+    let summary = ran.summary();
+    for key in ALWAYS {
+        assert!(!summary[key].is_null(), "07: {key}");
+    }
+    check_report("07", &ran.report());
+    let table = Table::read(&ran.results.join("cases.csv"));
+    let clearance = table.numbers("bearing.diametral_clearance[um]");
+    let expected: Vec<f64> = (4..=12).map(|ten| 10.0 * f64::from(ten)).collect();
+    assert_eq!(clearance, expected);
+    assert!(
+        table
+            .words("status")
+            .iter()
+            .all(|word| *word == "converged")
+    );
+    // A wider gap carries on a smaller arc, lets more oil out and shears it less.
+    let rises = |name: &str| table.numbers(name).windows(2).all(|pair| pair[1] > pair[0]);
+    let falls = |name: &str| table.numbers(name).windows(2).all(|pair| pair[1] < pair[0]);
+    assert!(falls("minimum_film_thickness[m]") && falls("mean_power_loss[W]"));
+    assert!(rises("peak_film_pressure[Pa]") && rises("mean_side_flow[m3/s]"));
+    assert!(
+        table
+            .numbers("mass_balance_relative[-]")
+            .iter()
+            .all(|value| *value < 1e-10)
+    );
+    // The page's optimum: the limit is kept up to 70 um.
+    let verdicts = table.words("limit_minimum_film_thickness");
+    for (clearance, verdict) in clearance.iter().zip(verdicts) {
+        let expected = if *clearance < 75.0 { "OK" } else { "exceeded" };
+        assert_eq!(verdict, expected, "{clearance} um");
+    }
+    assert_eq!(
+        summary["extremes"]["minimum_film_thickness_m"]["maximum"]["case"],
+        1
+    );
+    assert_eq!(
+        summary["extremes"]["peak_film_pressure_pa"]["maximum"]["case"],
+        9
+    );
+}
+
+#[test]
 fn every_example_is_run_here() {
     let mut studies: Vec<String> = Vec::new();
     for entry in fs::read_dir(root().join("examples")).unwrap() {
@@ -253,6 +298,7 @@ fn every_example_is_run_here() {
             "02-big-end-diesel/study.toml",
             "03-one-axis-cycle/short-bearing.toml",
             "03-one-axis-cycle/study.toml",
+            "07-clearance-sweep/study.toml",
         ]
     );
 }

@@ -105,7 +105,7 @@ impl Table {
         let mut lines = text
             .lines()
             .filter(|line| !line.starts_with('#') && !line.is_empty())
-            .map(|line| line.split(',').map(str::to_owned).collect::<Vec<_>>());
+            .map(fields);
         Self {
             header: lines.next().unwrap(),
             rows: lines.collect(),
@@ -129,6 +129,20 @@ impl Table {
             .map(|word| parse(word).unwrap_or_else(|| panic!("{name}: {word}")))
             .collect()
     }
+}
+
+/// The fields of a line; commas in quotes are part of a field.
+fn fields(line: &str) -> Vec<String> {
+    let mut fields = vec![String::new()];
+    let mut quoted = false;
+    for c in line.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => fields.push(String::new()),
+            c => fields.last_mut().unwrap().push(c),
+        }
+    }
+    fields
 }
 
 /// The value in a table of quantity, value, unit and bar.

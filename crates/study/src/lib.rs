@@ -1,7 +1,9 @@
 //! From a study file to results: checked input, the run, tables and the report.
 
+pub mod cases;
 pub mod hdf5;
 pub mod input;
+pub mod ledger;
 pub mod limits;
 pub mod models;
 pub mod oil_holes;

@@ -1,5 +1,6 @@
 //! What one run produced: plain owned data, SI, that every output format reads.
 
+use crate::cases::{CaseStatus, SweepResults};
 use crate::limits::{Limit, LimitCheck, Quantity, Verdict};
 use crate::models::Model;
 use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
@@ -72,6 +73,8 @@ pub enum Body {
     LoadCycle(Box<CycleResults>),
     /// The dimensionless problem.
     Dimensionless(DimensionlessResults),
+    /// The cases of a sweep.
+    Sweep(Box<SweepResults>),
 }
 
 /// One state of the journal.
@@ -295,7 +298,7 @@ impl Results {
                     .map(|point| specific_load(&cycle.bearing, point.load)),
                 Quantity::PowerLoss => Some(cycle.mean(|point| point.summary.power_loss())),
             },
-            Body::Dimensionless(_) => None,
+            Body::Dimensionless(_) | Body::Sweep(_) => None,
         }
     }
 }
@@ -320,6 +323,18 @@ impl Results {
                 (name, format!("{value:.7}{bar}"))
             })
             .to_vec(),
+            Body::Sweep(sweep) => {
+                let mut figures = vec![("cases", sweep.cases.len().to_string())];
+                let counts = [
+                    ("converged", sweep.count(CaseStatus::Converged)),
+                    ("not converged", sweep.count(CaseStatus::NotConverged)),
+                    ("failed", sweep.failed()),
+                    ("not run", sweep.count(CaseStatus::NotRun)),
+                ];
+                let counts = counts.into_iter().filter(|(_, count)| *count > 0);
+                figures.extend(counts.map(|(name, count)| (name, count.to_string())));
+                figures
+            }
         }
     }
 }

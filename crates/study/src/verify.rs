@@ -79,6 +79,7 @@ fn keys(body: &Body) -> &'static [(&'static str, Scale)] {
         Body::Steady(_) => STEADY,
         Body::LoadCycle(_) => CYCLE,
         Body::Dimensionless(_) => DIMENSIONLESS,
+        Body::Sweep(_) => &[],
     }
 }
 
@@ -151,7 +152,7 @@ pub fn time_errors(results: &Results, run: &Figures, with_long_steps: &Figures) 
             [first, second, ..] => 0.5 * (second.crank_angle - first.crank_angle).to_degrees(),
             _ => 0.0,
         },
-        Body::Steady(_) | Body::Dimensionless(_) => 0.0,
+        Body::Steady(_) | Body::Dimensionless(_) | Body::Sweep(_) => 0.0,
     };
     run.iter()
         .filter_map(|(key, value)| {
@@ -174,7 +175,7 @@ fn difference(results: &Results, key: &str, a: f64, b: f64) -> f64 {
             [first, .., last] => (last.crank_angle - first.crank_angle).to_degrees(),
             _ => return a - b,
         },
-        Body::Steady(_) | Body::Dimensionless(_) => 360.0,
+        Body::Steady(_) | Body::Dimensionless(_) | Body::Sweep(_) => 360.0,
     };
     (a - b) - turn * ((a - b) / turn).round()
 }
@@ -195,7 +196,7 @@ pub fn relative_errors(
     };
     let half_width = match &results.body {
         Body::Steady(steady) => 0.5 * steady.bearing.width,
-        Body::LoadCycle(_) | Body::Dimensionless(_) => 0.0,
+        Body::LoadCycle(_) | Body::Dimensionless(_) | Body::Sweep(_) => 0.0,
     };
     let mut relative = Vec::new();
     for (name, error) in errors {

@@ -296,6 +296,8 @@ fn is_finite(study: &Study) -> bool {
             return case.d_over_b.is_finite() && case.relative_eccentricity.is_finite();
         }
         Subject::Bearing(case) => case,
+        // Its cases are studies that are checked one by one.
+        Subject::Sweep(_) => return true,
     };
     let bearing = &case.bearing;
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;

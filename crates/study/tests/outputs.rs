@@ -7,7 +7,8 @@ mod synthetic;
 
 use serde_json::Value;
 use sommerfeld_film::Outcome;
-use sommerfeld_study::output::{WRITERS, summary, write_all};
+use sommerfeld_study::cases::{CaseRecord, CaseStatus, SweepResults, VariedColumn};
+use sommerfeld_study::output::{WRITERS, case_table, summary, write_all};
 use sommerfeld_study::report::render;
 use sommerfeld_study::results::{Body, Results};
 use std::path::PathBuf;
@@ -190,14 +191,98 @@ fn the_field_table_has_a_row_per_cell() {
     assert_eq!(reader.records().count(), 128 * 32);
 }
 
+/// Two cases of a sweep over the made-up bearing, the second one failed.
+fn sweep() -> Results {
+    let steady = synthetic::steady("steady");
+    let record = |number, status, summary: String| CaseRecord {
+        number,
+        status,
+        message: if number == 1 {
+            String::new()
+        } else {
+            HOSTILE.into()
+        },
+        summary,
+        wall_time: 0.5,
+    };
+    let mut sweep = SweepResults {
+        base: "base.toml".into(),
+        mode: "grid",
+        varied: vec![VariedColumn {
+            key: "bearing.width".into(),
+            unit: "mm".into(),
+            tells_apart: true,
+        }],
+        ..SweepResults::default()
+    };
+    let done = record(1, CaseStatus::Converged, summary(&steady).to_string());
+    let failed = record(2, CaseStatus::Failed, "{}".into());
+    sweep.push(1, vec!["30 mm".into()], vec![Some(30.0)], Some(&done));
+    sweep.push(2, vec!["40 mm".into()], vec![Some(40.0)], Some(&failed));
+    sweep.push(3, vec!["50 mm".into()], vec![Some(50.0)], None);
+    let mut header = steady.header;
+    header.analysis = "sweep".into();
+    header.status = Outcome::NotConverged;
+    header.limits.clear();
+    Results {
+        header,
+        body: Body::Sweep(Box::new(sweep)),
+    }
+}
+
+#[test]
+fn a_sweep_counts_and_names_its_cases() {
+    let results = sweep();
+    let found = summary(&results);
+    for (key, expected) in [
+        ("cases", 3.0),
+        ("converged", 1.0),
+        ("failed", 1.0),
+        ("not_run", 1.0),
+    ] {
+        assert_eq!(number(&found, key), expected, "{key}");
+    }
+    assert_eq!(
+        found["varied"][0]["values"],
+        serde_json::json!(["30 mm", "40 mm", "50 mm"])
+    );
+    assert_eq!(
+        found["extremes"]["stiffness_n_m.yx"]["minimum"]["value"],
+        -1.27e9
+    );
+    assert_eq!(found["cases_not_converged"][0]["case"], 2);
+    let Body::Sweep(cases) = &results.body else {
+        unreachable!("a sweep was built")
+    };
+    let table = case_table(cases).unwrap();
+    let mut reader = csv::Reader::from_reader(table.as_slice());
+    let header = reader.headers().unwrap().clone();
+    let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(
+        (
+            &rows[0][place("bearing.width[mm]")],
+            &rows[0][place("status")]
+        ),
+        ("30.0", "converged")
+    );
+    assert_eq!(&rows[0][place("stiffness_yx[N/m]")], "-1270000000.0");
+    assert_eq!(&rows[1][place("force_x[N]")], "nan");
+    assert_eq!(&rows[1][place("message")], HOSTILE);
+    assert_eq!(&rows[2][place("status")], "not-run");
+    let page = own_part(&render(&results).unwrap());
+    assert!(page.contains("Not every case converged") && page.contains("1 failed, 1 not run"));
+    assert!(!page.contains("<script>alert") && !page.contains("src="));
+}
+
 #[test]
 fn files_appear_whole_and_alone() {
     let directory = directory("whole");
     let files = write_all(&synthetic::load_cycle("cycle"), &directory).unwrap();
     for writer in WRITERS {
         let path = directory.join(writer.file_name());
-        // A load cycle has no stability chart.
-        let is_due = writer.file_name() != "stability.csv";
+        // A load cycle has no stability chart and no cases.
+        let is_due = !["stability.csv", "cases.csv"].contains(&writer.file_name());
         assert_eq!(files.contains(&path), is_due, "{}", path.display());
     }
     let mut found = 0;

@@ -136,6 +136,9 @@ fn kind(kind: &Kind) -> String {
         Kind::Limit(dimension, _) => {
             format!("{{ value, source }}, value {}", units(dimension))
         }
+        Kind::Vary => {
+            "a table of keys, each with a list of its values or a range { from, to, count }".into()
+        }
         Kind::NotBuilt => format!("not built yet in version {}", env!("CARGO_PKG_VERSION")),
     }
 }

@@ -8,7 +8,7 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 /// Largest study file, bytes: far above any written by hand.
-const STUDY_CAP: u64 = 1 << 20;
+pub(super) const STUDY_CAP: u64 = 1 << 20;
 /// Largest load table, bytes.
 pub(super) const TABLE_CAP: u64 = 64 << 20;
 

@@ -102,6 +102,25 @@ fn plain(kind: &Kind) -> Value {
             "required": ["value"],
             "additionalProperties": false,
         }),
+        Kind::Vary => json!({
+            "type": "object",
+            "minProperties": 1,
+            "additionalProperties": { "anyOf": [
+                { "type": "array", "minItems": 1 },
+                {
+                    "type": "object",
+                    "properties": {
+                        "from": { "type": ["string", "number"] },
+                        "to": { "type": ["string", "number"] },
+                        "count": { "type": "integer", "minimum": 2 },
+                        "scale": { "enum": ["linear", "log"] },
+                    },
+                    "required": ["from", "to", "count"],
+                    "additionalProperties": false,
+                },
+                { "type": "object", "not": { "required": ["from"] } },
+            ]},
+        }),
         Kind::Text | Kind::Table | Kind::TableList | Kind::QuantityOrLaw(..) | Kind::NotBuilt => {
             json!({ "type": "string" })
         }

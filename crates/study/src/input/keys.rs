@@ -2,14 +2,23 @@
 
 use super::schema::Kind::{
     Choice, Flag, Grid, Integer, Limit, List, NotBuilt, Number, Pair, Quantity, QuantityOrLaw,
-    Table, TableList, Text,
+    Table, TableList, Text, Vary,
 };
-use super::schema::Mode::{self, Coefficients, Dimensionless, Equilibrium, Film, LoadCycle};
+use super::schema::Mode::{self, Coefficients, Dimensionless, Equilibrium, Film, LoadCycle, Sweep};
 use super::schema::Presence::{self, Default, Optional, Required};
 use super::schema::{Key, Kind, Range};
 use super::units::Dimension;
 
 const ALL: &[Mode] = &[Film, Dimensionless, Equilibrium, Coefficients, LoadCycle];
+const EVERY: &[Mode] = &[
+    Film,
+    Dimensionless,
+    Equilibrium,
+    Coefficients,
+    LoadCycle,
+    Sweep,
+];
+const SWEEP: &[Mode] = &[Sweep];
 const PHYSICAL: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle];
 const OPERATED: &[Mode] = &[Film, Equilibrium, Coefficients];
 const STEADY: &[Mode] = &[Equilibrium, Coefficients];
@@ -53,10 +62,10 @@ const fn planned(path: &'static str, meaning: &'static str) -> Key {
 /// Every key of the study file, in the order in which `explain` and the schema show them.
 #[rustfmt::skip] // one key per entry reads as a table
 pub const KEYS: &[Key] = &[
-    key("schema", Integer(1, 1), Required, ALL, "Version of the study file format.", "1"),
-    key("title", Text, Default(""), ALL, "Title of the study, shown in the report.", "\"Big end, 2000 rpm\""),
-    key("analysis", Choice(&["film", "equilibrium", "coefficients", "load-cycle"], &["database", "engine", "shaft", "sweep"]),
-        Required, ALL, "What is calculated: one film, the position under a constant load, stiffness and damping there, or the journal orbit over a load cycle.", "\"load-cycle\""),
+    key("schema", Integer(1, 1), Required, EVERY, "Version of the study file format.", "1"),
+    key("title", Text, Default(""), EVERY, "Title of the study, shown in the report.", "\"Big end, 2000 rpm\""),
+    key("analysis", Choice(&["film", "equilibrium", "coefficients", "load-cycle", "sweep"], &["database", "engine", "shaft"]),
+        Required, EVERY, "What is calculated: one film, the position under a constant load, stiffness and damping there, the journal orbit over a load cycle, or any of these for many values of some keys.", "\"load-cycle\""),
 
     key("bearing", Table, Required, PHYSICAL, "The bearing: its size, clearance and oil supply.", ""),
     key("bearing.diameter", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bore diameter.", "\"30 mm\" to \"500 mm\""),
@@ -211,5 +220,12 @@ pub const KEYS: &[Key] = &[
     planned("engine", "An engine, from layout and gas pressure to the loads of its bearings."),
     planned("shaft", "A shaft on several bearings."),
     planned("database", "A hydrodynamic database."),
-    planned("sweep", "A table of varied keys over a base study."),
+
+    key("sweep", Table, Required, SWEEP, "Many cases of a base study, some of whose keys vary.", ""),
+    key("sweep.base", Text, Required, SWEEP, "The base study, beside this one; the files it names lie beside it.", "\"study.toml\""),
+    key("sweep.mode", Choice(&["grid", "zip"], &[]), Default("grid"), SWEEP, "grid: every value with every other, the last key fastest; zip: the first values of all keys, then the second ones.", "\"grid\""),
+    key("sweep.vary", Vary, Required, SWEEP,
+        "Keys of the base study and the values they take: a list, or a range { from, to, count, scale = \"linear\" | \"log\" }. \"bearing.groove[0].pressure\" is that of the first groove.",
+        "{ \"bearing.diametral_clearance\" = [\"60 um\", \"72 um\", \"84 um\"], \"operation.speed\" = { from = \"1000 rpm\", to = \"4000 rpm\", count = 7 } }"),
+    key("sweep.keep", Choice(&["summary", "all"], &[]), Default("summary"), SWEEP, "What each case leaves in cases/NNNN: its summary.json, or all of its results (report.html alone takes 5 MB a case).", "\"summary\""),
 ];

@@ -15,8 +15,10 @@ mod profile_file;
 mod read;
 pub mod schema;
 mod study;
+mod sweep;
 pub mod units;
 mod values;
+mod vary;
 
 pub use error::{InputError, InputErrors, MessageKind, Place, render_all};
 pub use explain::{explain, list_keys};
@@ -27,3 +29,4 @@ pub use study::{
     Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, Rotor,
     SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,
 };
+pub use sweep::{Keep, KeyStep, SweepMode, SweepPlan, VariedKey, VariedValue};

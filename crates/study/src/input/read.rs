@@ -207,6 +207,7 @@ impl<'t> Reading<'t> {
                 self.table(key.path, table, entries);
                 Some(Value::Table)
             }
+            (Kind::Vary, DeValue::Table(table)) => self.vary(table, &span),
             (Kind::TableList, DeValue::Array(list)) => self.groups(key, list),
             (Kind::TableList, DeValue::Table(table)) => {
                 let mut group = Entries::new();
@@ -304,7 +305,7 @@ fn limit_form(key: &Key) -> String {
     format!("value and source: {}", key.typical)
 }
 
-fn join(path: &str, name: &str) -> String {
+pub(super) fn join(path: &str, name: &str) -> String {
     if path.is_empty() {
         name.to_owned()
     } else {

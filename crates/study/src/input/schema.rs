@@ -88,6 +88,8 @@ pub enum Kind {
     Choice(&'static [&'static str], &'static [&'static str]),
     /// A design limit: `{ value = "..", source = ".." }`.
     Limit(Dimension, Range),
+    /// Keys of a base study, each with its values.
+    Vary,
     /// Planned, and refused by name.
     NotBuilt,
 }
@@ -116,6 +118,8 @@ pub enum Mode {
     Coefficients,
     /// Journal orbit.
     LoadCycle,
+    /// Many cases of a base study.
+    Sweep,
 }
 
 impl Mode {
@@ -128,6 +132,7 @@ impl Mode {
             Self::Equilibrium => "equilibrium",
             Self::Coefficients => "coefficients",
             Self::LoadCycle => "load-cycle",
+            Self::Sweep => "sweep",
         }
     }
 }

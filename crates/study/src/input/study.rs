@@ -1,6 +1,7 @@
 //! A checked study: everything a run needs, in SI, with nothing left to doubt.
 
 use super::error::InputError;
+use super::sweep::SweepPlan;
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
@@ -16,7 +17,7 @@ pub struct Study {
     pub analysis: Analysis,
     /// What it is calculated of.
     pub subject: Subject,
-    /// How the film is modelled.
+    /// How the film is modelled; of a sweep, in its first case.
     pub film: FilmSettings,
     /// The rotor whose stability is asked for.
     pub rotor: Rotor,
@@ -35,12 +36,12 @@ pub struct Study {
 }
 
 impl Study {
-    /// The bearing, unless the study is dimensionless.
+    /// The bearing, unless the study is dimensionless or a sweep.
     #[must_use]
     pub fn bearing_case(&self) -> Option<&BearingCase> {
         match &self.subject {
             Subject::Bearing(case) => Some(case),
-            Subject::Dimensionless(_) => None,
+            Subject::Dimensionless(_) | Subject::Sweep(_) => None,
         }
     }
 }
@@ -56,6 +57,8 @@ pub enum Analysis {
     Coefficients,
     /// The journal orbit over a load cycle.
     LoadCycle,
+    /// One of these for each of many cases.
+    Sweep,
 }
 
 impl Analysis {
@@ -67,6 +70,7 @@ impl Analysis {
             Self::Equilibrium => "equilibrium",
             Self::Coefficients => "coefficients",
             Self::LoadCycle => "load-cycle",
+            Self::Sweep => "sweep",
         }
     }
 }
@@ -78,6 +82,8 @@ pub enum Subject {
     Bearing(BearingCase),
     /// The dimensionless film problem.
     Dimensionless(DimensionlessFilm),
+    /// Many cases of a base study.
+    Sweep(SweepPlan),
 }
 
 /// A bearing with its oil and what it has to do.

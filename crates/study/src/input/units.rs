@@ -217,6 +217,16 @@ impl Dimension {
         self.table().iter().map(|unit| unit.0).collect()
     }
 
+    /// Name of its SI unit.
+    #[must_use]
+    pub fn si_unit(self) -> &'static str {
+        let si = self
+            .table()
+            .iter()
+            .find(|unit| unit.1 == 1.0 && unit.2 == 0.0);
+        si.map_or("", |unit| unit.0)
+    }
+
     /// SI value of a number in one of its units; `None` where the unit is not one of them.
     #[must_use]
     pub fn to_si(self, number: f64, unit: &str) -> Option<f64> {
@@ -343,6 +353,16 @@ fn broken_number(number: &str, rest: &str) -> Option<QuantityError> {
     } else {
         QuantityError::GroupedDigits(plain)
     })
+}
+
+/// The number and the unit of a quantity as they are written, whatever the unit is.
+#[must_use]
+pub fn split(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    let (number, unit) = text.split_at(number_length(text));
+    let number: f64 = number.parse().ok()?;
+    let unit = unit.trim();
+    (number.is_finite() && !unit.is_empty()).then_some((number, unit))
 }
 
 /// Tells a unit of another dimension from one that is not known at all.

@@ -3,6 +3,7 @@
 use super::error::InputError;
 use super::schema::{self, GRID_LIMITS, Key, Kind, Presence, Range};
 use super::units::{self, Dimension, QuantityError};
+use super::vary::Vary;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -28,6 +29,8 @@ pub(super) enum Value {
     Grid([usize; 2]),
     /// A design limit in SI and its source.
     Limit(f64, String),
+    /// The keys that a sweep varies.
+    Vary(Vec<Vary>),
     /// A table; its keys are entries of their own.
     Table,
     /// Given, but refused with an error of its own: not to be reported as missing, too.
@@ -183,6 +186,7 @@ fn expected(kind: &Kind) -> String {
         }
         Kind::Grid => "two whole numbers, [128, 32]".into(),
         Kind::Limit(..) => "a table { value = \"..\", source = \"..\" }".into(),
+        Kind::Vary => "a table of keys with their values".into(),
         Kind::NotBuilt => "left out".into(),
     }
 }

@@ -4,6 +4,7 @@
 //! finite is written `nan`, which common readers take as a number.
 
 use super::{OutputError, ResultWriter};
+use crate::cases::SweepResults;
 use crate::results::{Body, CycleResults, FieldSnapshot, Results, degrees, status_name};
 use sommerfeld_bearing::CyclePoint;
 use sommerfeld_film::FeedFlow;
@@ -24,7 +25,7 @@ impl ResultWriter for CycleTable {
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
         match &results.body {
             Body::LoadCycle(cycle) => cycle_table(cycle).map(Some),
-            Body::Steady(_) | Body::Dimensionless(_) => Ok(None),
+            Body::Steady(_) | Body::Dimensionless(_) | Body::Sweep(_) => Ok(None),
         }
     }
 }
@@ -46,9 +47,30 @@ impl ResultWriter for FieldTable {
         let field = match &results.body {
             Body::Steady(steady) => steady.field.as_ref(),
             Body::LoadCycle(cycle) => cycle.fields.as_ref().map(|fields| &fields.worst.field),
-            Body::Dimensionless(_) => None,
+            Body::Dimensionless(_) | Body::Sweep(_) => None,
         };
         field.map(field_table).transpose()
+    }
+}
+
+/// Writes `cases.csv`: one row per case of a sweep.
+#[derive(Debug, Clone, Copy)]
+pub struct CaseTable;
+
+impl ResultWriter for CaseTable {
+    fn file_name(&self) -> &'static str {
+        "cases.csv"
+    }
+
+    fn describe(&self) -> &'static str {
+        "sweep: varied values, status, key numbers and limits per case"
+    }
+
+    fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
+        match &results.body {
+            Body::Sweep(sweep) => case_table(sweep).map(Some),
+            Body::Steady(_) | Body::LoadCycle(_) | Body::Dimensionless(_) => Ok(None),
+        }
     }
 }
 
@@ -190,6 +212,44 @@ pub fn field_table(field: &FieldSnapshot) -> Result<Vec<u8>, OutputError> {
     for ((angle, axial), ((pressure, fraction), thickness)) in places.zip(values) {
         let axial_mm = (axial * 1e12).round() * 1e-9;
         table.row([degrees(*angle), axial_mm, *pressure, *fraction, *thickness].map(number))?;
+    }
+    table.finish()
+}
+
+/// The table of a sweep as CSV: number, varied values, status, numbers, limits, message. It holds no
+/// times: the same sweep gives the same table, byte for byte.
+///
+/// # Errors
+/// [`OutputError::Content`].
+pub fn case_table(sweep: &SweepResults) -> Result<Vec<u8>, OutputError> {
+    let mut table = Table::new(CaseTable.file_name());
+    let varied = sweep
+        .varied
+        .iter()
+        .map(|column| match column.unit.as_str() {
+            "" => column.key.clone(),
+            unit => format!("{}[{unit}]", column.key),
+        });
+    let columns = sweep.columns.iter();
+    let columns = columns.map(|column| format!("{}[{}]", column.name, column.unit));
+    let limits = sweep.limits.iter().map(|name| format!("limit_{name}"));
+    let header = ["case".to_owned()].into_iter().chain(varied);
+    let header = header.chain(["status".to_owned()]).chain(columns);
+    table.row(header.chain(limits).chain(["message".to_owned()]))?;
+    for row in &sweep.cases {
+        let inputs = row.inputs.iter().zip(&row.numbers);
+        let inputs = inputs.map(|(shown, value)| value.map_or_else(|| shown.clone(), number));
+        let values = (0..sweep.columns.len()).map(|at| number(SweepResults::value(row, at)));
+        let limits = (0..sweep.limits.len()).map(|at| match SweepResults::limit(row, at) {
+            Some(limit) => match limit.verdict.as_str() {
+                "ok" => "OK".to_owned(),
+                verdict => verdict.to_owned(),
+            },
+            None => String::new(),
+        });
+        let first = [row.number.to_string()].into_iter().chain(inputs);
+        let first = first.chain([row.status.name().to_owned()]).chain(values);
+        table.row(first.chain(limits).chain([row.message.clone()]))?;
     }
     table.finish()
 }

@@ -3,6 +3,7 @@
 //! Numbers that are not finite become `null`: JSON has no word for them.
 
 use super::{OutputError, ResultWriter};
+use crate::cases::{CaseStatus, SweepResults};
 use crate::limits::LimitCheck;
 use crate::models::Model;
 use crate::oil_holes::{OilHole, oil_holes};
@@ -14,7 +15,7 @@ use crate::results::{
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
 use sommerfeld_film::FeedFlow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// Writes `summary.json`.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +49,7 @@ pub fn summary(results: &Results) -> Value {
         Body::Steady(steady) => steady_keys(steady),
         Body::LoadCycle(cycle) => cycle_keys(cycle),
         Body::Dimensionless(integrals) => dimensionless_keys(integrals),
+        Body::Sweep(sweep) => sweep_keys(sweep),
     };
     if let Value::Object(body) = body {
         object.extend(body);
@@ -331,6 +333,70 @@ fn dimensionless_keys(integrals: &DimensionlessResults) -> Value {
             "p_z_sin": integrals.p_z_sin,
             "peak": integrals.peak,
         }
+    })
+}
+
+fn sweep_keys(sweep: &SweepResults) -> Value {
+    let varied: Vec<Value> = (sweep.varied.iter().enumerate())
+        .map(|(at, column)| {
+            let mut seen = HashSet::new();
+            let values = sweep.cases.iter().filter_map(|row| row.inputs.get(at));
+            let values: Vec<&String> = values.filter(|value| seen.insert(*value)).collect();
+            json!({ "key": column.key, "unit": column.unit, "values": values })
+        })
+        .collect();
+    let mut extremes = Map::new();
+    for (at, column) in sweep.columns.iter().enumerate() {
+        if let Some(found) = sweep.extremes(at) {
+            let [low, high] =
+                found.map(|(row, value)| json!({ "value": value, "case": row.number }));
+            let both = json!({ "minimum": low, "maximum": high });
+            extremes.insert(column.key.clone(), both);
+        }
+    }
+    let limits: Vec<Value> = (sweep.limits.iter().enumerate())
+        .map(|(at, name)| {
+            let count = |verdict: &str| {
+                let limits = sweep
+                    .cases
+                    .iter()
+                    .filter_map(|row| SweepResults::limit(row, at));
+                limits.filter(|limit| limit.verdict == verdict).count()
+            };
+            json!({
+                "name": name, "ok": count("ok"), "exceeded": count("exceeded"),
+                "not_evaluated": count("not-evaluated"),
+            })
+        })
+        .collect();
+    let bad = sweep
+        .cases
+        .iter()
+        .filter(|row| row.status != CaseStatus::Converged);
+    let bad: Vec<Value> = bad
+        .map(|row| {
+            let keys = sweep.varied.iter().map(|column| column.key.clone());
+            let inputs: Map<String, Value> = keys
+                .zip(row.inputs.iter().map(|value| json!(value)))
+                .collect();
+            json!({
+                "case": row.number, "inputs": inputs, "status": row.status.name(),
+                "message": row.message,
+            })
+        })
+        .collect();
+    json!({
+        "cases": sweep.cases.len(),
+        "converged": sweep.count(CaseStatus::Converged),
+        "not_converged": sweep.count(CaseStatus::NotConverged),
+        "failed": sweep.failed(),
+        "not_run": sweep.count(CaseStatus::NotRun),
+        "base": sweep.base,
+        "mode": sweep.mode,
+        "varied": varied,
+        "extremes": extremes,
+        "limits": limits,
+        "cases_not_converged": bad,
     })
 }
 

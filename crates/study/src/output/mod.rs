@@ -8,7 +8,7 @@ mod json;
 mod stability;
 mod vtk;
 
-pub use csv::{CycleTable, FieldTable, cycle_table, field_table};
+pub use csv::{CaseTable, CycleTable, FieldTable, case_table, cycle_table, field_table};
 pub use earlier::check_directory;
 pub use hdf5::Hdf5Results;
 pub use html::HtmlReport;
@@ -80,6 +80,7 @@ pub const WRITERS: &[&dyn ResultWriter] = &[
     &Hdf5Results,
     &ParaView,
     &StabilityTable,
+    &CaseTable,
     &HtmlReport,
     &SummaryJson,
 ];

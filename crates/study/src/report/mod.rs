@@ -17,6 +17,7 @@ mod page;
 mod spark;
 mod steady;
 mod surfaces;
+mod sweep;
 
 use crate::regime::Regime;
 use crate::results::{Body, Results};
@@ -33,6 +34,7 @@ const SCRIPT: &[&str] = &[
     include_str!("assets/planes.js"),
     include_str!("assets/maps.js"),
     include_str!("assets/film.js"),
+    include_str!("assets/sweep.js"),
     include_str!("assets/start.js"),
 ];
 const DRAWING_LIBRARY: &str = include_str!("assets/plotly.min.js");
@@ -52,6 +54,7 @@ pub fn render(results: &Results) -> Result<String, minijinja::Error> {
         Body::Steady(steady) => steady::fill(&mut page, header, steady),
         Body::LoadCycle(cycle) => cycle::fill(&mut page, header, cycle),
         Body::Dimensionless(integrals) => dimensionless::fill(&mut page, header, integrals),
+        Body::Sweep(sweep) => sweep::fill(&mut page, sweep),
     };
     let data = script_safe(&data.to_string());
     let mut environment = Environment::new();

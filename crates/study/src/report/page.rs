@@ -434,6 +434,7 @@ fn analysis_in_words(analysis: &str) -> String {
         "equilibrium" => "Equilibrium under steady load".to_owned(),
         "coefficients" => "Equilibrium with stiffness and damping".to_owned(),
         "load-cycle" => "Journal orbit over a load cycle".to_owned(),
+        "sweep" => "Sweep over a base study".to_owned(),
         other => other.to_owned(),
     }
 }

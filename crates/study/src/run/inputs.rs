@@ -18,7 +18,8 @@ pub(super) fn input_rows(text: &str) -> Vec<InputRow> {
             }
             toml::Value::Array(items) if items.iter().any(toml::Value::is_table) => {
                 for (index, item) in items.iter().enumerate() {
-                    walk(&format!("{prefix}[{}]", index + 1), item, rows);
+                    // Counted from 0, as a sweep names the elements of a list.
+                    walk(&format!("{prefix}[{index}]"), item, rows);
                 }
             }
             toml::Value::String(words) => rows.push(InputRow {

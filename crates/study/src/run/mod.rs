@@ -5,10 +5,12 @@ mod cycle;
 mod inputs;
 mod record;
 mod steady;
+mod sweep;
 
 use crate::input::{
     BearingCase, Duty, FilmModel, FilmSettings, StoredInstants, Study, Subject, TiltCondition,
 };
+use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
 use crate::output::{OutputError, StoredFields, check_directory, prepare_directory, write_stored};
@@ -29,6 +31,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use steady::{solve_load, solve_state};
+use sweep::{run_sweep, solve_sweep};
 use thiserror::Error;
 
 /// Takes the signs of life of a run and answers whether to go on.
@@ -49,6 +52,9 @@ pub struct RunOptions {
     /// Error bars from other grids and time steps, where the study sets no error target, which has
     /// them anyway.
     pub verify: bool,
+    /// Threads that share the cases of a sweep; `None` takes one for each processor. The results do
+    /// not depend on it.
+    pub threads: Option<usize>,
 }
 
 /// Why a run gave no results.
@@ -60,6 +66,17 @@ pub enum RunError {
     /// Results could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),
+    /// The ledger of a sweep cannot be used.
+    #[error("{0}")]
+    Ledger(#[from] LedgerError),
+    /// The base study of a sweep, or a file it names, is not the one that was checked.
+    #[error(
+        "{0}, or a file it names, has changed while the sweep ran\n  = hint: run the sweep again, in another directory unless the change is taken back"
+    )]
+    InputChanged(String),
+    /// The system gives no threads.
+    #[error("no threads can be started: {0}")]
+    Threads(String),
 }
 
 /// Runs `study` and writes its results into `directory`.
@@ -84,6 +101,9 @@ pub fn run_with(
     options: RunOptions,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
+    if let Subject::Sweep(plan) = &study.subject {
+        return run_sweep(study, plan, directory, options, progress);
+    }
     // Better told before a long run than after it.
     check_directory(directory, &study.files)?;
     prepare_directory(directory)?;
@@ -151,6 +171,9 @@ fn solve_into(
     spool: Option<&mut FieldSpool>,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Results, FilmError> {
+    if let Subject::Sweep(plan) = &study.subject {
+        return Ok(solve_sweep(study, plan, options, progress));
+    }
     let start = Instant::now();
     let target = study
         .film
@@ -189,6 +212,9 @@ fn solve_once(
 ) -> Result<Results, FilmError> {
     let mut header = header(study);
     let body = match &study.subject {
+        Subject::Sweep(plan) => {
+            return Ok(solve_sweep(study, plan, RunOptions::default(), progress));
+        }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.duty {
             Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
@@ -237,6 +263,8 @@ fn models_of(study: &Study) -> Vec<Model> {
         .into_iter()
         .collect();
     match &study.subject {
+        // Its cases say what they used.
+        Subject::Sweep(_) => used.clear(),
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
         Subject::Bearing(case) => {
             if study.film.model.is_field() {

@@ -4,6 +4,7 @@ mod bearing;
 mod duty;
 mod grooves;
 mod shapes;
+mod sweep;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};
@@ -42,6 +43,9 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
     };
     checker.report_missing();
     checker.report_unused();
+    if mode == Mode::Sweep {
+        return checker.sweep();
+    }
     let subject = checker.subject();
     let film = checker.film_settings();
     let rotor = checker.rotor();
@@ -93,6 +97,7 @@ fn mode(reading: &Reading<'_>) -> Option<Mode> {
         "equilibrium" => Some(Mode::Equilibrium),
         "coefficients" => Some(Mode::Coefficients),
         "load-cycle" => Some(Mode::LoadCycle),
+        "sweep" => Some(Mode::Sweep),
         _ => None,
     }
 }
@@ -103,6 +108,7 @@ fn analysis(mode: Mode) -> Analysis {
         Mode::Equilibrium => Analysis::Equilibrium,
         Mode::Coefficients => Analysis::Coefficients,
         Mode::LoadCycle => Analysis::LoadCycle,
+        Mode::Sweep => Analysis::Sweep,
     }
 }
 
@@ -264,6 +270,9 @@ impl Checker<'_> {
             let note = self.reading.error(&span, message).of_key(key.path);
             if self.mode == Mode::Dimensionless {
                 self.errors.push(note.hinting("take it out"));
+            } else if self.mode == Mode::Sweep {
+                self.errors
+                    .push(note.hinting("it belongs into the base study, or under [sweep] vary"));
             } else if key.path == "operation.dimensionless" {
                 self.errors
                     .push(note.hinting("only the analysis \"film\" can be dimensionless"));

@@ -40,14 +40,14 @@
     };
   }
 
-  function limitLines(limits) {
+  const limitLines = report.limitLines = (limits) => {
     return {
       shapes: limits.map((limit) => ({ type: "line", xref: "paper", x0: 0, x1: 1, y0: limit.value, y1: limit.value,
         line: { color: theme.bad, width: 1.2, dash: "dash" } })),
       annotations: limits.map((limit) => ({ xref: "paper", x: 1, xanchor: "right", y: limit.value, yanchor: "bottom",
         text: limit.label, showarrow: false, font: { color: theme.bad } })),
     };
-  }
+  };
 
   function failedMarks(column) {
     if (cycle.failed.length === 0) { return []; }
