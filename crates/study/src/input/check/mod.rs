@@ -290,7 +290,7 @@ impl Checker<'_> {
     fn film_settings(&mut self) -> Option<FilmSettings> {
         let model = self.film_model()?;
         if !model.is_field() {
-            for path in ["film.grid", "film.linear_solver"] {
+            for path in ["film.grid", "film.linear_solver", "output.fields"] {
                 if let Some(entry) = self.entry(path) {
                     let message = format!("`{path}` is not used by the model {}", model.name());
                     let note = self.reading.error(&entry.key_span, message).of_key(path);
