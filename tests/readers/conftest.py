@@ -80,6 +80,13 @@ def cycle_frames(tmp_path_factory):
 
 
 @pytest.fixture(scope="session")
+def cycle_none(tmp_path_factory):
+    """The same without fields over crank angle."""
+    study = cycle_study(tmp_path_factory.mktemp("study"), "none")
+    return run(study, tmp_path_factory.mktemp("none"))
+
+
+@pytest.fixture(scope="session")
 def dimensionless(tmp_path_factory):
     """The dimensionless film: integrals alone."""
     directory = tmp_path_factory.mktemp("study")

@@ -22,9 +22,10 @@ def datasets(file):
 
 
 def film_force(pressure, angle, axial, bearing):
-    """What the pressure does to the journal, N, by cell areas: faces lie where the centres demand."""
+    """What the pressure does to the journal, N, by cell areas."""
 
     def widths(centres, start):
+        """Cell widths: each face is its neighbour mirrored at the centre between them."""
         faces = [start]
         for centre in centres:
             faces.append(2 * centre - faces[-1])
@@ -178,13 +179,15 @@ def test_the_journal_sees_what_turns_by(cycle):
         assert np.abs(found - largest).max() < 0.02 * largest.max()
 
 
-def test_frames_are_a_choice(cycle, cycle_frames):
+def test_fields_are_a_choice(cycle, cycle_frames, cycle_none):
     with h5py.File(cycle.path("results.h5")) as every, h5py.File(cycle_frames.path("results.h5")) as few:
         crank, found = every["fields/crank_angle"][:], few["fields/crank_angle"][:]
         assert found.shape == (72,)
         places = [np.abs(crank - angle).argmin() for angle in found]
         assert np.array_equal(every["fields/pressure"][:][places], few["fields/pressure"][:])
         assert set(np.diff(places)) == {2, 3}
+    with h5py.File(cycle_none.path("results.h5")) as none:
+        assert "fields" not in none and "accumulated" in none and "cycle" in none
 
 
 def test_nothing_half_is_left(cycle):

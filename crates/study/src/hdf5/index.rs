@@ -201,3 +201,45 @@ fn group(objects: &[Object], members: &[usize], headers: &[u64], address: u64) -
     }
     bytes
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+mod tests {
+    use super::*;
+
+    /// Addresses of the chunks under a node, found as a reader finds them.
+    fn chunks_under(bytes: &[u8], start: u64, address: u64, key: usize) -> Vec<u64> {
+        let node = &bytes[(address - start) as usize..];
+        assert_eq!(node[..5], *b"TREE\x01");
+        let count = usize::from(u16::from_le_bytes(node[6..8].try_into().unwrap()));
+        assert!((1..=2 * CHUNK_TREE_K).contains(&count));
+        let child = |number: usize| {
+            let at = 24 + number * (key + 8) + key;
+            u64::from_le_bytes(node[at..at + 8].try_into().unwrap())
+        };
+        if node[5] == 0 {
+            return (0..count).map(child).collect();
+        }
+        let children = (0..count).map(child);
+        children
+            .flat_map(|child| chunks_under(bytes, start, child, key))
+            .collect()
+    }
+
+    #[test]
+    fn a_tree_of_any_height_holds_every_chunk_in_order() {
+        for count in [1, 64, 65, 4096, 4500] {
+            let chunks: Vec<Chunk> = (0..count)
+                .map(|number| Chunk {
+                    offset: vec![2 * number, 0, 0],
+                    address: 7 * number + 1,
+                    size: 5,
+                })
+                .collect();
+            let (bytes, root) = chunk_tree(&chunks, &[2, 3, 4], 1000);
+            let found = chunks_under(&bytes, 1000, root, 8 + 8 * 4);
+            let expected: Vec<u64> = chunks.iter().map(|chunk| chunk.address).collect();
+            assert_eq!(found, expected, "{count}");
+        }
+    }
+}

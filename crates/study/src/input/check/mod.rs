@@ -365,6 +365,7 @@ impl Checker<'_> {
                 "film.grid",
                 "film.linear_solver",
                 "film.relative_error_target",
+                "output.fields",
             ] {
                 if let Some(entry) = self.entry(path) {
                     let message = format!("`{path}` is not used by the model {}", model.name());
