@@ -170,7 +170,11 @@ fn the_cycle_table_reads_back() {
     assert_eq!(loaded, cycle.orbit.points[372].load[0]);
     assert_eq!(names.last(), Some(&"status"));
     assert_eq!(rows[372].iter().next_back(), Some("not-converged"));
-    assert_eq!(names[names.len() - 2], "feed_2_flow[m3/s]");
+    let feeds = ["feed_1_flow[m3/s]", "feed_2_flow[m3/s]"];
+    let pressures = ["feed_1_pressure[Pa]", "feed_2_pressure[Pa]"];
+    let last = names.len() - 1;
+    assert_eq!(names[last - 4..last], [feeds, pressures].concat());
+    assert_eq!(&rows[372][last - 1], "500000.0");
 }
 
 #[test]
