@@ -133,7 +133,7 @@
     const at = (r) => [r * Math.cos(side * Math.PI / 180), r * Math.sin(side * Math.PI / 180)];
     const [x, y] = at(1.17);
     return [wire([x, x], [y, y], [-half, half], theme.soft, 3),
-      words([x, x], [y, y], [1.22 * half, -1.22 * half], [`z = +${film.half_width} mm`, `−${film.half_width} mm`], theme.soft)];
+      words([1.2 * x], [1.2 * y], [1.2 * half], [`z = ±${film.half_width} mm`], theme.soft)];
   }
 
   function plate() {
