@@ -307,7 +307,12 @@ fn the_report_is_one_offline_file() {
         assert!(page.len() < 10_000_000);
         assert!(page.contains("default-src 'none'"));
         let own = own_part(&page);
-        for loader in ["src=", "href=", "@import", "url(", "http:", "https:"] {
+        // Links lead to places of the page itself.
+        assert_eq!(
+            own.matches("href=").count(),
+            own.matches("href=\"#").count()
+        );
+        for loader in ["src=", "@import", "url(", "http:", "https:"] {
             assert!(!own.contains(loader), "{loader}");
         }
     }
@@ -324,6 +329,54 @@ fn the_report_escapes_what_users_write() {
     assert!(own.contains("&lt;script&gt;alert(1)"));
     let scripts = own.matches("<script").count();
     assert_eq!((scripts, own.matches("</script>").count()), (3, 3));
+}
+
+#[test]
+fn the_report_of_a_cycle_holds_the_standard_package() {
+    let page = own_part(&render(&synthetic::load_cycle("cycle")).unwrap());
+    for kind in [
+        "film-solid",
+        "film-pressure",
+        "film-fraction",
+        "load-polar",
+        "load-polar-journal",
+        "orbit",
+        "eccentricity",
+        "thickness",
+        "pressure",
+        "power",
+        "flow",
+        "feed-flows",
+        "shell-amplitude",
+        "journal-pressure",
+    ] {
+        assert!(page.contains(&format!("data-kind=\"{kind}\"")), "{kind}");
+    }
+    assert!(
+        page.contains("id=\"frame\"") && page.contains("is loaded least for an oil hole of 6 mm")
+    );
+    assert!(page.contains("Limit exceeded") && page.contains("± 0.021"));
+    assert!(page.contains("data-key=\"mean_power_loss_w\" data-value=\""));
+}
+
+#[test]
+fn a_cycle_without_fields_has_no_film_to_show() {
+    let mut results = synthetic::load_cycle("closed form");
+    if let Body::LoadCycle(cycle) = &mut results.body {
+        cycle.fields = None;
+    }
+    let page = own_part(&render(&results).unwrap());
+    assert!(page.contains("data-kind=\"orbit\"") && !page.contains("data-kind=\"film-solid\""));
+}
+
+#[test]
+fn the_report_warns_beyond_laminar_flow() {
+    let mut results = synthetic::steady("fast");
+    assert!(!own_part(&render(&results).unwrap()).contains("Beyond laminar flow"));
+    if let Body::Steady(steady) = &mut results.body {
+        steady.summary.reynolds_number = 1500.0;
+    }
+    assert!(own_part(&render(&results).unwrap()).contains("Beyond laminar flow"));
 }
 
 #[test]

@@ -347,10 +347,10 @@ fn over_the_cycle(cycle: &CycleResults) -> Section {
         ));
     }
     // A figure alone in its row takes the whole of it.
-    if figures.len() % 2 == 1 {
-        if let Some(last) = figures.last_mut() {
-            last.size = "wide";
-        }
+    if figures.len() % 2 == 1
+        && let Some(last) = figures.last_mut()
+    {
+        last.size = "wide";
     }
     Section {
         id: "cycle",

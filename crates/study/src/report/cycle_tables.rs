@@ -24,12 +24,12 @@ pub(super) const REYNOLDS_NOTE: &str = "Reynolds number ρ U c/η; laminar below
 
 /// The Reynolds number of the film and its bound.
 pub(super) fn reynolds_row(flow: Option<FlowRegime>) -> Vec<Cell> {
-    let label = Cell::text("Reynolds number of the film, bound of laminar flow");
+    let label = Cell::text("Largest Reynolds number of the film");
     let Some(flow) = flow else {
         return vec![label, Cell::number("not given by this film model")];
     };
     let text = format!(
-        "{}, {}",
+        "{}, laminar below {}",
         significant(flow.reynolds_number),
         significant(flow.critical)
     );

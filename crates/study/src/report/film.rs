@@ -130,9 +130,10 @@ pub(super) fn part(bearing: &Bearing, first: &FieldSnapshot, frames: usize) -> F
         } else {
             "The film of the state above.".to_owned()
         },
-        solid: "The bearing seen along its axis from +z, +X to the right and +Y up. The height of \
-                the surface above the grey rings is the film pressure. The arrow is the load on \
-                the journal. Drag to turn, scroll to zoom."
+        solid: "The bearing seen from +z, +X to the right and +Y up, angles as on the rings. The \
+                height of the surface above the rings is the film pressure; the arrow is the load \
+                on the journal. Drag to turn, scroll to zoom; unrolled, the height stands over \
+                bearing angle and axial position."
             .to_owned(),
         pressure: format!(
             "Bearing surface unrolled, angle from +X of the shell frame in the sense of rotation, \

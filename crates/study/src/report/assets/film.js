@@ -133,7 +133,7 @@
     const at = (r) => [r * Math.cos(side * Math.PI / 180), r * Math.sin(side * Math.PI / 180)];
     const [x, y] = at(1.17);
     return [wire([x, x], [y, y], [-half, half], theme.soft, 3),
-      words([x, x], [y, y], [1.22 * half, -1.22 * half], [`z = +${film.half_width} mm`, `−${film.half_width} mm`], theme.soft)];
+      words([1.2 * x], [1.2 * y], [1.2 * half], [`z = ±${film.half_width} mm`], theme.soft)];
   }
 
   function plate() {
@@ -144,7 +144,7 @@
       yaxis: line3d("Axial position [mm]", { range: [-film.half_width, film.half_width] }),
       zaxis: line3d(withUnit("Film pressure", units.pressure), { range: range("pressure") }),
       aspectmode: "manual", aspectratio: { x: 1.5, y: 0.8, z: 0.75 },
-      camera: { up: { x: 0, y: 0, z: 1 }, eye: { x: -0.75, y: -1.55, z: 0.85 }, center: { x: 0, y: 0, z: -0.12 } } };
+      camera: { up: { x: 0, y: 0, z: 1 }, eye: { x: -0.9, y: -1.95, z: 1.0 }, center: { x: 0.05, y: 0, z: -0.18 } } };
     for (const name of ["xaxis", "yaxis", "zaxis"]) {
       for (const unknown of ["automargin", "titlefont", "standoff", "ticklen"]) { delete scene[name][unknown]; }
       scene[name].title = { text: scene[name].title.text };
@@ -198,10 +198,33 @@
 
   const pictures = ["film-solid", "film-pressure", "film-fraction"];
 
+  // The page tells which instant its pictures show, once they do.
+  async function drawPictures() {
+    const drawn = shown;
+    await report.draw(pictures);
+    document.getElementById("film").dataset.shown = drawn;
+  }
+
   function show(index) {
     shown = index;
     readOut();
-    return report.draw(pictures);
+    return refresh();
+  }
+
+  // One drawing at a time: what is asked for meanwhile is drawn once, as it stands then.
+  let drawing = null;
+  let isStale = false;
+  function refresh() {
+    isStale = true;
+    drawing ??= (async () => {
+      while (isStale) {
+        isStale = false;
+        await new Promise((done) => { setTimeout(done); });
+        await drawPictures();
+      }
+      drawing = null;
+    })();
+    return drawing;
   }
 
   let playing = null;
@@ -224,17 +247,9 @@
 
   if (slider) {
     slider.max = film.frames.length - 1;
-    let waiting = false;
     slider.addEventListener("input", () => {
       if (playing) { stop(); }
-      shown = Number(slider.value);
-      readOut();
-      if (waiting) { return; }
-      waiting = true;
-      requestAnimationFrame(async () => {
-        waiting = false;
-        await report.draw(pictures);
-      });
+      show(Number(slider.value));
     });
     play.addEventListener("click", () => {
       if (playing) { stop(); return; }
@@ -255,8 +270,9 @@
     button.addEventListener("click", () => {
       choice[button.dataset.choice] = button.dataset.value;
       for (const other of button.parentElement.children) { other.setAttribute("aria-pressed", String(other === button)); }
-      report.draw(pictures);
+      refresh();
     });
   }
   readOut();
+  document.getElementById("film").dataset.shown = shown;
 })(globalThis.sommerfeld);

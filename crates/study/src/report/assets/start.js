@@ -22,10 +22,18 @@
 
   report.draw = (kinds) => Promise.all(elements(kinds).map(draw));
 
-  function drawAll(printing) {
+  // One after the other, so that the page answers meanwhile; paper does not wait.
+  async function drawAll(printing) {
     isPrinting = printing;
     report.readTheme(printing);
-    return report.draw();
+    if (printing) {
+      await report.draw();
+      return;
+    }
+    for (const element of elements()) {
+      await draw(element);
+      await new Promise((done) => { setTimeout(done); });
+    }
   }
 
   drawAll(false).then(() => { document.documentElement.dataset.drawn = "true"; });
