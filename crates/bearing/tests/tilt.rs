@@ -194,12 +194,8 @@ fn round_trip(cavitation: Cavitation, rows: u32) -> [f64; 3] {
         let edge = free.state.tilt[0].hypot(free.state.tilt[1]) * 0.5 * bearing.width;
         tilted = tilted.max(edge / bearing.radial_clearance);
     }
-    println!(
-        "{cavitation:?}, {rows} rows: moments {off:e} N m, positions {apart:e} c, tilt {tilted}"
-    );
     assert!(tilted > 0.1, "{tilted}");
     let rms = (squares / f64::from(rows)).sqrt();
-    println!("rms of the moments {rms:e} N m");
     [off, rms, apart]
 }
 
