@@ -94,7 +94,7 @@ pub(super) fn solve_load(
         let shown = |matrix| if has_film { matrix } else { [[f64::NAN; 2]; 2] };
         steady.stiffness = Some(shown(coefficients.translation_stiffness()));
         steady.damping = Some(shown(coefficients.translation_damping()));
-        if has_film {
+        if found.outcome == Outcome::Converged {
             let (coefficients, has_tilt) = with_tilt(case, study, film.as_ref(), &found)?;
             let chart = chart(case, study, film.as_mut(), &request, header, progress)?;
             let stability = rotor_stability(&coefficients);
