@@ -5,7 +5,9 @@ use crate::input::{Duty, Study, Subject};
 use crate::models;
 use crate::progress::ProgressEvent;
 use crate::results::{Body, DimensionlessResults, Header, Results, SteadyResults};
-use crate::verify::{Figures, GridRun, figures, relative_errors, space_estimates, time_errors};
+use crate::verify::{
+    Figures, GridRun, figures, relative_errors, space_errors, space_estimates, time_errors,
+};
 use sommerfeld_film::dimensionless::{
     DimensionlessFilm, DimensionlessIntegrals, MOST_CELLS, refine_dimensionless,
 };
@@ -112,10 +114,7 @@ pub(super) fn add_error_bars(
             of(middle, &found[1]),
             of(coarse, &found[0]),
         ];
-        errors = space_estimates(results, triple)
-            .into_iter()
-            .map(|(key, estimate)| (key, estimate.error_of_finest))
-            .collect();
+        errors = space_errors(&space_estimates(results, triple), |e| e.error_of_finest);
         let [_, of_middle] = found;
         coarser = Some((middle, of_middle));
     } else {
@@ -312,10 +311,7 @@ fn extrapolated(runs: [&([usize; 2], Results); 3]) -> (Results, (String, f64)) {
         size: sizes[k],
         figures: &own[k],
     });
-    let errors: Figures = space_estimates(&best, triple)
-        .into_iter()
-        .map(|(key, estimate)| (key, estimate.error))
-        .collect();
+    let errors: Figures = space_errors(&space_estimates(&best, triple), |e| e.error);
     let worst = relative_errors(&best, &own[0], &errors).into_iter().next();
     let mut bodies = runs.map(|(_, results)| results.body.clone());
     if let [
@@ -455,10 +451,8 @@ fn cycle_to_target(
             size: of(run),
             figures: &run.2,
         });
-        let space: Figures = space_estimates(&results, triple)
-            .into_iter()
-            .map(|(key, estimate)| (key, estimate.error_of_finest))
-            .collect();
+        let space: Figures =
+            space_errors(&space_estimates(&results, triple), |e| e.error_of_finest);
         let time = time_errors(&results, &short.2, &long.2);
         let mut errors = space.clone();
         add(&mut errors, &time);
