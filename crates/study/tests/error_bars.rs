@@ -170,7 +170,7 @@ fn squeeze_side_flow_is_not_the_tables_by_many_error_bars() {
         let [width_ratio, eps, _, reference] = row[..] else {
             panic!("{row:?}")
         };
-        if width_ratio != 1.0 || eps < 0.25 || eps > 0.85 {
+        if width_ratio != 1.0 || !(0.25..=0.85).contains(&eps) {
             continue;
         }
         let text = format!(

@@ -70,14 +70,16 @@ pub(super) fn add_error_bars(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<(), FilmError> {
     if results.header.status != Outcome::Converged {
-        return Ok(no_bars(results, "the run did not converge"));
+        no_bars(results, "the run did not converge");
+        return Ok(());
     }
     let [least_around, least_along] = SMALLEST_GRID;
     let [around, along] = study.film.grid;
     let on_grid = study.film.model.is_field();
     if on_grid && (around < least_around || along < least_along) {
         let reason = format!("film.grid must be at least [{least_around}, {least_along}] for them");
-        return Ok(no_bars(results, &reason));
+        no_bars(results, &reason);
+        return Ok(());
     }
     let own = figures(results);
     let mut errors: Figures = own.keys().map(|key| (key.clone(), 0.0)).collect();
@@ -99,10 +101,8 @@ pub(super) fn add_error_bars(
             .iter()
             .any(|run| run.header.status != Outcome::Converged)
         {
-            return Ok(no_bars(
-                results,
-                "the same film on a coarser grid did not converge",
-            ));
+            no_bars(results, "the same film on a coarser grid did not converge");
+            return Ok(());
         }
         let found = runs.each_ref().map(figures);
         let of = |grid, figures| GridRun {
@@ -132,10 +132,8 @@ pub(super) fn add_error_bars(
         };
         let long = solve_at(study, long, [0.85, 1.0], progress)?;
         if long.header.status != Outcome::Converged {
-            return Ok(no_bars(
-                results,
-                "the orbit with longer time steps did not converge",
-            ));
+            no_bars(results, "the orbit with longer time steps did not converge");
+            return Ok(());
         }
         add(&mut errors, &time_errors(results, &run, &figures(&long)));
     }
