@@ -12,7 +12,7 @@
 use crate::bearing::{Bearing, Cavitation, Ends, FilmShear, Inlet};
 use crate::force::{Conditions, FilmError, FilmForce, FilmSummary, Outcome, Reaction, Step};
 use crate::journal_state::JournalState;
-use crate::richardson::{Estimate, Sample, cell_size, estimate, grid_sequence};
+use crate::richardson::{Estimate, Sample, cell_size, estimate, grid_sequence, vector_errors};
 use crate::shape::Shape;
 use crate::solver::FilmSolver;
 use serde::{Deserialize, Serialize};
@@ -313,7 +313,10 @@ fn extrapolated(runs: [([usize; 2], DimensionlessIntegrals); 3]) -> [Dimensionle
             peak,
         }
     };
-    [gathered(|e| e.extrapolated), gathered(|e| e.error)]
+    let mut error = gathered(|e| e.error);
+    [error.p_cos, error.p_sin] = vector_errors([error.p_cos, error.p_sin]);
+    [error.p_z_cos, error.p_z_sin] = vector_errors([error.p_z_cos, error.p_z_sin]);
+    [gathered(|e| e.extrapolated), error]
 }
 
 fn solve_on(

@@ -4,17 +4,21 @@
 //! components of vectors and matrices carry their indices (`force_n.0`, `stiffness_n_m.0.1`). The
 //! error of a figure has two parts that are summed:
 //! - space: from three grids, see [`sommerfeld_film::richardson`];
-//! - time, load cycles only: the change when all time steps are twice as long. That is the whole error
-//!   of a method of order 1, which a transported film fraction makes of any, and three times that of
-//!   order 2.
+//! - time, load cycles only: the change when all time steps are twice as long, with a safety factor.
+//!   That is the whole error of a method of order 1, which a transported film fraction makes of any,
+//!   and three times that of order 2. Extremes may also lie between two crank angles.
 //!
 //! What the physical model leaves out is no part of it.
 
 use crate::output::summary;
-use crate::results::{Body, Results};
+use crate::results::{Body, Results, magnitude};
 use serde_json::Value;
-use sommerfeld_film::richardson::{Estimate, Sample, estimate};
+use sommerfeld_bearing::CyclePoint;
+use sommerfeld_film::richardson::{Estimate, Sample, estimate, vector_errors};
 use std::collections::BTreeMap;
+
+/// Safety on the change of a figure with longer time steps, as on that with coarser grids.
+const TIME_SAFETY: f64 = 1.25;
 
 /// Figures by key, in the unit of the key.
 pub type Figures = BTreeMap<String, f64>;
@@ -33,6 +37,14 @@ enum Scale {
     /// None: an error is stated, no target is set. Counts of cells and crank angles go in steps.
     Free,
 }
+
+/// Figures that are the two components of a vector.
+const VECTORS: &[[&str; 2]] = &[
+    ["force_n.0", "force_n.1"],
+    ["moment_n_m.0", "moment_n_m.1"],
+    ["integrals.p_cos", "integrals.p_sin"],
+    ["integrals.p_z_cos", "integrals.p_z_sin"],
+];
 
 /// The figures of one state of the journal.
 const STEADY: &[(&str, Scale)] = &[
@@ -143,6 +155,26 @@ pub fn space_estimates(results: &Results, runs: [GridRun<'_>; 3]) -> BTreeMap<St
     estimates
 }
 
+/// Errors taken from estimates by `of`, those of a vector by [`vector_errors`].
+#[must_use]
+pub fn space_errors(
+    estimates: &BTreeMap<String, Estimate>,
+    of: impl Fn(&Estimate) -> f64,
+) -> Figures {
+    let mut errors: Figures = estimates
+        .iter()
+        .map(|(key, e)| (key.clone(), of(e)))
+        .collect();
+    for [x, y] in VECTORS {
+        if let (Some(&of_x), Some(&of_y)) = (errors.get(*x), errors.get(*y)) {
+            let [of_x, of_y] = vector_errors([of_x, of_y]);
+            errors.insert((*x).to_owned(), of_x);
+            errors.insert((*y).to_owned(), of_y);
+        }
+    }
+    errors
+}
+
 /// Errors for the sake of the time step, from figures with the steps of the run and with twice as
 /// long ones. A crank angle is known to half a step in any case.
 #[must_use]
@@ -154,13 +186,46 @@ pub fn time_errors(results: &Results, run: &Figures, with_long_steps: &Figures) 
         },
         Body::Steady(_) | Body::Dimensionless(_) | Body::Sweep(_) => 0.0,
     };
+    let between = sampling_errors(results);
     run.iter()
         .filter_map(|(key, value)| {
             let change = difference(results, key, *with_long_steps.get(key)?, *value).abs();
             let least = if is_angle(key) { half_step } else { 0.0 };
-            Some((key.clone(), change.max(least)))
+            let missed = between.get(key.as_str()).copied().unwrap_or_default();
+            Some((key.clone(), (TIME_SAFETY * change).max(least) + missed))
         })
         .collect()
+}
+
+/// What an extreme may miss between two crank angles: an eighth of the second difference around it, as
+/// for a parabola whose vertex lies in the middle of two points. Longer steps do not show it where
+/// their points hold the same extreme.
+fn sampling_errors(results: &Results) -> BTreeMap<&'static str, f64> {
+    let Body::LoadCycle(cycle) = &results.body else {
+        return BTreeMap::new();
+    };
+    let points = &cycle.orbit.points;
+    let missed = |value: &dyn Fn(&CyclePoint) -> f64| {
+        let bend =
+            |k: usize| (value(&points[k - 1]) - 2.0 * value(&points[k])) + value(&points[k + 1]);
+        (1..points.len().saturating_sub(1))
+            .max_by(|&a, &b| value(&points[a]).total_cmp(&value(&points[b])))
+            .map_or(0.0, |highest| 0.125 * bend(highest).abs())
+    };
+    let load = missed(&|point| magnitude(point.load));
+    let area = cycle.bearing.width * cycle.bearing.diameter;
+    BTreeMap::from([
+        (
+            "minimum_film_thickness_m",
+            missed(&|point| -point.summary.minimum_film_thickness.value),
+        ),
+        (
+            "peak_film_pressure_pa",
+            missed(&|point| point.summary.peak_film_pressure.value),
+        ),
+        ("maximum_load_n", load),
+        ("maximum_specific_load_pa", load / area),
+    ])
 }
 
 fn is_angle(key: &str) -> bool {

@@ -5,7 +5,9 @@ use crate::input::{Duty, Study, Subject};
 use crate::models;
 use crate::progress::ProgressEvent;
 use crate::results::{Body, DimensionlessResults, Header, Results, SteadyResults};
-use crate::verify::{Figures, GridRun, figures, relative_errors, space_estimates, time_errors};
+use crate::verify::{
+    Figures, GridRun, figures, relative_errors, space_errors, space_estimates, time_errors,
+};
 use sommerfeld_film::dimensionless::{
     DimensionlessFilm, DimensionlessIntegrals, MOST_CELLS, refine_dimensionless,
 };
@@ -68,14 +70,16 @@ pub(super) fn add_error_bars(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<(), FilmError> {
     if results.header.status != Outcome::Converged {
-        return Ok(no_bars(results, "the run did not converge"));
+        no_bars(results, "the run did not converge");
+        return Ok(());
     }
     let [least_around, least_along] = SMALLEST_GRID;
     let [around, along] = study.film.grid;
     let on_grid = study.film.model.is_field();
     if on_grid && (around < least_around || along < least_along) {
         let reason = format!("film.grid must be at least [{least_around}, {least_along}] for them");
-        return Ok(no_bars(results, &reason));
+        no_bars(results, &reason);
+        return Ok(());
     }
     let own = figures(results);
     let mut errors: Figures = own.keys().map(|key| (key.clone(), 0.0)).collect();
@@ -97,10 +101,8 @@ pub(super) fn add_error_bars(
             .iter()
             .any(|run| run.header.status != Outcome::Converged)
         {
-            return Ok(no_bars(
-                results,
-                "the same film on a coarser grid did not converge",
-            ));
+            no_bars(results, "the same film on a coarser grid did not converge");
+            return Ok(());
         }
         let found = runs.each_ref().map(figures);
         let of = |grid, figures| GridRun {
@@ -112,10 +114,7 @@ pub(super) fn add_error_bars(
             of(middle, &found[1]),
             of(coarse, &found[0]),
         ];
-        errors = space_estimates(results, triple)
-            .into_iter()
-            .map(|(key, estimate)| (key, estimate.error_of_finest))
-            .collect();
+        errors = space_errors(&space_estimates(results, triple), |e| e.error_of_finest);
         let [_, of_middle] = found;
         coarser = Some((middle, of_middle));
     } else {
@@ -133,10 +132,8 @@ pub(super) fn add_error_bars(
         };
         let long = solve_at(study, long, [0.85, 1.0], progress)?;
         if long.header.status != Outcome::Converged {
-            return Ok(no_bars(
-                results,
-                "the orbit with longer time steps did not converge",
-            ));
+            no_bars(results, "the orbit with longer time steps did not converge");
+            return Ok(());
         }
         add(&mut errors, &time_errors(results, &run, &figures(&long)));
     }
@@ -313,10 +310,7 @@ fn extrapolated(runs: [&([usize; 2], Results); 3]) -> (Results, (String, f64)) {
         size: sizes[k],
         figures: &own[k],
     });
-    let errors: Figures = space_estimates(&best, triple)
-        .into_iter()
-        .map(|(key, estimate)| (key, estimate.error))
-        .collect();
+    let errors: Figures = space_errors(&space_estimates(&best, triple), |e| e.error);
     let worst = relative_errors(&best, &own[0], &errors).into_iter().next();
     let mut bodies = runs.map(|(_, results)| results.body.clone());
     if let [
@@ -456,10 +450,8 @@ fn cycle_to_target(
             size: of(run),
             figures: &run.2,
         });
-        let space: Figures = space_estimates(&results, triple)
-            .into_iter()
-            .map(|(key, estimate)| (key, estimate.error_of_finest))
-            .collect();
+        let space: Figures =
+            space_errors(&space_estimates(&results, triple), |e| e.error_of_finest);
         let time = time_errors(&results, &short.2, &long.2);
         let mut errors = space.clone();
         add(&mut errors, &time);
