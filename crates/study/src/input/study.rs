@@ -70,7 +70,7 @@ impl Analysis {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Subject {
     /// A bearing in SI.
-    Bearing(BearingCase),
+    Bearing(Box<BearingCase>),
     /// The dimensionless film problem.
     Dimensionless(DimensionlessFilm),
 }
