@@ -306,3 +306,63 @@ impl ProfileTable {
         [WEIGHTS * around, WEIGHTS * along]
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn nodes() -> (Vec<f64>, Vec<f64>, Vec<f64>) {
+        let angles = vec![0.2, 0.9, 2.0, 3.5, 4.1, 5.7];
+        let positions = vec![-0.02, -0.004, 0.003, 0.011];
+        let offsets = (0..24).map(|k| 1e-6 * f64::from((7 * k) % 11)).collect();
+        (angles, positions, offsets)
+    }
+
+    fn table() -> ProfileTable {
+        let (angles, positions, offsets) = nodes();
+        ProfileTable::new(angles, positions, offsets).unwrap()
+    }
+
+    #[test]
+    fn a_table_meets_its_nodes_without_a_bend() {
+        let ((angles, positions, offsets), table) = (nodes(), table());
+        for (i, &angle) in angles.iter().enumerate() {
+            for (k, &z) in positions.iter().enumerate() {
+                let value = offsets[i * 4 + k];
+                assert!((table.offset(angle, z) - value).abs() < 1e-20);
+                let near = |by: f64, bz: f64| table.gradient(angle + by, z + bz);
+                let jump = near(1e-9, 0.0)[0] - near(-1e-9, 0.0)[0];
+                assert!(jump.abs() < 1e-12, "{jump}");
+                if k > 0 && k < 3 {
+                    let jump = near(0.0, 1e-12)[1] - near(0.0, -1e-12)[1];
+                    assert!(jump.abs() < 1e-11, "{jump}");
+                }
+            }
+        }
+    }
+
+    /// A table of a smooth profile comes close to it, by the third order.
+    #[test]
+    fn a_finer_table_is_closer() {
+        let error = |n: usize| {
+            let angles: Vec<f64> = (0..n).map(|i| TAU * i as f64 / n as f64).collect();
+            let positions: Vec<f64> = (0..n).map(|k| k as f64 / (n - 1) as f64 - 0.5).collect();
+            let value = |a: f64, z: f64| (2.0 * a).cos() * (1.0 + z * z);
+            let offsets = angles
+                .iter()
+                .flat_map(|a| positions.iter().map(move |z| value(*a, *z)))
+                .collect();
+            let table = ProfileTable::new(angles, positions, offsets).unwrap();
+            let places = (0..200).map(|k| (0.0314 * f64::from(k), 0.0049 * f64::from(k) - 0.48));
+            places
+                .map(|(a, z)| (table.offset(a, z) - value(a, z)).abs())
+                .fold(0.0, f64::max)
+        };
+        let (coarse, fine) = (error(24), error(48));
+        assert!(
+            fine < 1e-3 && (coarse / fine).log2() > 2.7,
+            "{coarse} {fine}"
+        );
+    }
+}

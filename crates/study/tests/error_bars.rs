@@ -30,7 +30,15 @@ fn study(name: &str, text: &str) -> Study {
 
 fn solve(study: &Study, verify: bool) -> Value {
     let mut go_on = |_| ControlFlow::Continue(());
-    let results = solve_with(study, RunOptions { verify }, &mut go_on).unwrap();
+    let results = solve_with(
+        study,
+        RunOptions {
+            verify,
+            ..RunOptions::default()
+        },
+        &mut go_on,
+    )
+    .unwrap();
     assert_eq!(results.header.status, Outcome::Converged);
     summary(&results)
 }

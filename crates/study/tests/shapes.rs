@@ -1,7 +1,7 @@
 //! Shapes of bore and journal, from the study file to results.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
-use sommerfeld_film::{Feature, ReliefForm};
+use sommerfeld_film::{Feature, Outcome, ReliefForm};
 use sommerfeld_study::input::Study;
 use sommerfeld_study::load_study;
 use sommerfeld_study::results::Body;
@@ -128,4 +128,50 @@ fn a_table_of_a_wave_is_the_wave() {
     let other = study(shapes, &[("bore.csv", csv(5.0))]);
     assert_eq!(table.text, other.text);
     assert_ne!(table.input_hash, other.input_hash);
+}
+
+/// A journal of two lobes turns under a load: its film is thinner than that of a round one, and the
+/// orbit follows it twice a turn.
+#[test]
+fn a_journal_that_is_not_round_turns_through_its_cycle() {
+    let cycle = |shapes: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        let loads: String = (0..8).map(|k| format!("{},2000,0\n", 45 * k)).collect();
+        let loads = format!("crank_angle[deg],load_x[N],load_y[N]\n{loads}");
+        fs::write(directory.path().join("loads.csv"), loads).unwrap();
+        let path = directory.path().join("study.toml");
+        let text = format!(
+            "schema = 1\nanalysis = \"load-cycle\"\n[bearing]\ndiameter = \"72 mm\"\n\
+             width = \"30 mm\"\ndiametral_clearance = \"72 um\"\n{shapes}\n\
+             [[bearing.groove]]\nkind = \"hole\"\nangle = \"180 deg\"\ndiameter = \"6 mm\"\n\
+             pressure = \"5 bar\"\n[oil]\nviscosity = \"8 mPa.s\"\n[film]\ngrid = [48, 8]\n\
+             [load_cycle]\nfile = \"loads.csv\"\nengine_speed = \"2000 rpm\"\n\
+             period = \"360 deg\"\ncrank_step = \"5 deg\"\n"
+        );
+        fs::write(&path, text).unwrap();
+        let study = load_study(&path).unwrap_or_else(|errors| panic!("{errors}"));
+        let results = solve(&study, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(results.header.status, Outcome::Converged);
+        let Body::LoadCycle(cycle) = results.body else {
+            panic!()
+        };
+        let films = cycle
+            .orbit
+            .points
+            .iter()
+            .map(|p| p.summary.minimum_film_thickness.value);
+        let range = |axis: usize| {
+            let places = cycle.orbit.points.iter().map(|p| p.state.position[axis]);
+            places.clone().fold(f64::MIN, f64::max) - places.fold(f64::MAX, f64::min)
+        };
+        (films.fold(f64::INFINITY, f64::min), range(0).max(range(1)))
+    };
+    let (round_film, round_range) = cycle("");
+    let lobes = "[[bearing.journal.harmonic]]\norder = 2\namplitude = \"2 um\"\n";
+    let (film, range) = cycle(lobes);
+    assert!(film > 0.0 && film < round_film, "{film} {round_film}");
+    assert!(
+        range > 0.5e-6 && range > 10.0 * round_range,
+        "{range} {round_range}"
+    );
 }

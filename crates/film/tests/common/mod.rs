@@ -1,8 +1,9 @@
 //! Bearings that the tests share.
-#![allow(dead_code, clippy::panic)]
+#![allow(dead_code, clippy::panic, clippy::unwrap_used)]
 
 pub mod planar;
 pub mod recomputed;
+pub mod shaped;
 
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,

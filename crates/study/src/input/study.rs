@@ -79,7 +79,7 @@ impl Analysis {
 #[derive(Debug, Clone, PartialEq)]
 pub enum Subject {
     /// A bearing in SI.
-    Bearing(BearingCase),
+    Bearing(Box<BearingCase>),
     /// The dimensionless film problem.
     Dimensionless(DimensionlessFilm),
     /// Many cases of a base study.

@@ -29,12 +29,12 @@ impl Checker<'_> {
             Mode::LoadCycle => self.load_cycle(bearing.as_ref()).map(Duty::Cycle),
             _ => self.steady_load(bearing.as_ref()).map(Duty::Load),
         };
-        Some(Subject::Bearing(BearingCase {
+        Some(Subject::Bearing(Box::new(BearingCase {
             bearing: bearing?,
             lubricant: lubricant?,
             temperature: temperature?,
             duty: duty?,
-        }))
+        })))
     }
 
     /// The dimensionless case, its gap open everywhere.
