@@ -461,7 +461,13 @@ fn mutated_inputs_are_answered() {
             Ok(accepted) => tally.accepted += u64::from(accepted),
             Err(_) => keep(&mut tally, &directory, &study, &table, "broken"),
         }
-        if taken > SLOW {
+        // On a busy machine an input may wait for its turn: slow is what is slow each time.
+        let again = || {
+            let begun = Instant::now();
+            let _ = load_study(&file);
+            begun.elapsed()
+        };
+        if taken > SLOW && (0..3).all(|_| again() > SLOW) {
             keep(&mut tally, &directory, &study, &table, "slow");
         }
         if tally.findings.len() >= 20 {
