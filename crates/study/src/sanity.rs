@@ -55,8 +55,12 @@ pub fn warnings(results: &Results, case: Option<&BearingCase>) -> Vec<String> {
 }
 
 /// Three digits, as many as such a number is worth.
-fn short(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+fn short(value: f64) -> String {
+    let rounded = format!("{value:.2e}");
+    match rounded.parse::<f64>() {
+        Ok(plain) if (1e-4..1e6).contains(&plain.abs()) => plain.to_string(),
+        _ => rounded,
+    }
 }
 
 /// The flow in the gap at the highest speed of the study is not laminar.

@@ -184,6 +184,7 @@ fn messages_stay_on_a_page() {
         study("loads.csv").replace("72 um", &format!("\u{2212}{long}")),
         study("loads.csv").replace("width", &long),
         study(&long),
+        study("loads.csv") + &format!("{long} = 1\n").repeat(2),
         "[".repeat(100_000),
         "a = [".repeat(100_000),
         format!("{}\n", "a.".repeat(100_000)),

@@ -13,6 +13,8 @@ use toml::de::{DeTable, DeValue};
 pub(super) const MOST_ERRORS: usize = 100;
 /// Behind the first few errors of syntax the parser guesses.
 const SYNTAX_ERRORS: usize = 5;
+/// Longest piece of a key that is shown, characters.
+const KEY_SHOWN: usize = 80;
 /// The schema that is read here.
 const SCHEMA: i64 = 1;
 
@@ -114,7 +116,8 @@ impl<'t> Reading<'t> {
         let message = match error.message() {
             "duplicate key" => {
                 let key = self.text.get(span.clone()).unwrap_or_default().trim();
-                return InputError::new(self.file, format!("`{key}` is given twice"))
+                let shown: String = key.chars().take(KEY_SHOWN).collect();
+                return InputError::new(self.file, format!("`{shown}` is given twice"))
                     .at(place)
                     .of_key(key)
                     .hinting("keep one of the two");
@@ -167,7 +170,7 @@ impl<'t> Reading<'t> {
     }
 
     fn unknown_key(&mut self, path: &str, span: &Span<usize>) {
-        let shown: String = path.chars().take(80).collect();
+        let shown: String = path.chars().take(KEY_SHOWN).collect();
         let section = path.rsplit_once('.').map_or("", |(section, _)| section);
         let known: Vec<&str> = schema::children(section)
             .filter(|k| k.is_built())

@@ -286,13 +286,17 @@ impl Checker<'_> {
             matches!(lubricant.viscosity, ViscosityLaw::Vogel { c, .. } if temperature + c <= 0.0);
         if is_below_pole || !(1e-6..=1e3).contains(&viscosity) {
             let message = format!(
-                "the viscosity law gives {viscosity:.3e} Pa.s at the film temperature of {:.1} degC",
+                "the viscosity is {viscosity:.3e} Pa.s at the film temperature of {:.1} degC",
                 temperature - 273.15
             );
             let error = self
                 .error_at("oil.viscosity", message)
-                .hinting("for vogel, b and c are in K and T in K: c = (c for degC) - 273.15");
-            self.errors.push(error);
+                .allowing("at least 0.001 mPa.s, at most 1000 Pa.s");
+            self.errors.push(match lubricant.viscosity {
+                ViscosityLaw::Vogel { .. } => error
+                    .hinting("for vogel, b and c are in K and T in K: c = (c for degC) - 273.15"),
+                _ => error.hinting("is the unit right? 1 mPa.s is the viscosity of water"),
+            });
             return None;
         }
         Some(lubricant)

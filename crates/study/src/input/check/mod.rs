@@ -377,6 +377,9 @@ impl Checker<'_> {
         let Value::Grid(grid) = self.value("film.grid")? else {
             return None;
         };
+        if model.is_field() {
+            self.check_grid_memory(grid);
+        }
         let linear_solver = match self.text("film.linear_solver")?.as_str() {
             "banded" => LinearSolver::Banded,
             _ => LinearSolver::Auto,
@@ -387,6 +390,25 @@ impl Checker<'_> {
             linear_solver,
             relative_error_target: self.number("film.relative_error_target"),
         })
+    }
+
+    /// Refuses a grid whose direct solution does not fit into the memory of usual machines: it is
+    /// better told than found out by an allocation that fails.
+    fn check_grid_memory(&mut self, [around, axial]: [usize; 2]) {
+        /// Entries of the dense inverses, cells around times cells along the axis squared: 16 GB.
+        const MOST_ENTRIES: f64 = 2e9;
+        let entries = around as f64 * (axial as f64).powi(2);
+        if entries > MOST_ENTRIES {
+            let message = format!("the grid needs {:.0} GB of memory", 8e-9 * entries);
+            let most_axial = (MOST_ENTRIES / around as f64).sqrt().floor();
+            let error = self
+                .error_at("film.grid", message)
+                .allowing(format!("at most {:.0} GB", 8e-9 * MOST_ENTRIES))
+                .hinting(format!(
+                    "with {around} cells around take at most {most_axial} along the axis"
+                ));
+            self.errors.push(error);
+        }
     }
 
     fn limits(&self) -> Vec<StudyLimit> {
