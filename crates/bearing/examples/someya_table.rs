@@ -6,8 +6,8 @@
 
 use sommerfeld_bearing::{Coefficients, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedShape, FilmShear, FilmSolver, Inlet,
-    JournalState,
+    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedLine, FeedShape, FilmShear,
+    FilmSolver, Inlet, JournalState, Shape,
 };
 use sommerfeld_oil::Lubricant;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -44,11 +44,14 @@ fn main() {
             angle,
             position: 0.0,
             pressure: 0.0,
+            line: FeedLine::Direct,
         };
         let bearing = Bearing {
             diameter,
             width,
             radial_clearance: 50e-6,
+            bore: Shape::cylindrical(),
+            journal: Shape::cylindrical(),
             feeds: vec![groove(FRAC_PI_2), groove(-FRAC_PI_2)],
             ambient_pressure: 0.0,
             cavitation_pressure: 0.0,

@@ -1,7 +1,9 @@
 //! A load cycle: the orbit, and what its points do not hold.
 
 use super::record::FieldRecorder;
-use super::{ProgressCallback, conditions, film_of, note_edge_contact, note_outcome};
+use super::{
+    ProgressCallback, conditions, film_of, note_edge_contact, note_outcome, with_reynolds_number,
+};
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, CycleResults, Header, InstantCoefficients};
@@ -61,7 +63,7 @@ pub(super) fn solve_cycle(
     let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure, spool);
     let mut watch = CycleWatch::new(duty, fields);
     let mut film = film_of(case, settings)?;
-    let orbit = journal_orbit(
+    let mut orbit = journal_orbit(
         film.as_mut(),
         &case.bearing,
         &duty.cycle,
@@ -69,6 +71,9 @@ pub(super) fn solve_cycle(
         &orbit_settings,
         &mut |point, film, stage| watch.see(point, film, stage, progress),
     )?;
+    for point in &mut orbit.points {
+        point.summary = with_reynolds_number(point.summary, case, &point.state);
+    }
     note_outcome(orbit.outcome, header);
     let contact = orbit.edge_contact(&duty.cycle, case.bearing.radial_clearance);
     if let Some((crank_angle, edge)) = contact {

@@ -23,8 +23,8 @@ use inputs::input_rows;
 use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
-    Conditions, FilmError, FilmForce, FilmSolver, LongBearingFilm, MobilityFilm, Outcome,
-    ShortBearingFilm,
+    Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
+    MobilityFilm, Outcome, ShortBearingFilm,
 };
 use sommerfeld_oil::ViscosityLaw;
 use std::ops::ControlFlow;
@@ -199,7 +199,7 @@ fn solve_into(
     results.check_limits(&limits(study));
     let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
     results.header.messages.extend(beyond_laminar);
-    let warnings = sanity::warnings(&results, study.bearing_case());
+    let warnings = sanity::warnings(&results);
     results.header.messages.extend(warnings);
     Ok(results)
 }
@@ -308,6 +308,24 @@ fn film_of(case: &BearingCase, settings: &FilmSettings) -> Result<Box<dyn FilmFo
         FilmModel::Mobility => Box::new(MobilityFilm::new(&case.bearing, viscosity)?),
         FilmModel::LongBearing => Box::new(LongBearingFilm::new(&case.bearing, viscosity)?),
     })
+}
+
+/// The summary with the Reynolds number of the film, where its model knows no density.
+fn with_reynolds_number(
+    summary: FilmSummary,
+    case: &BearingCase,
+    state: &JournalState,
+) -> FilmSummary {
+    if summary.reynolds_number != 0.0 {
+        return summary;
+    }
+    let density = case.lubricant.density(case.temperature, 0.0).value;
+    let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
+    let sliding = (state.journal_speed - state.shell_speed).abs() * case.bearing.radius();
+    FilmSummary {
+        reynolds_number: density * sliding * case.bearing.radial_clearance / viscosity,
+        ..summary
+    }
 }
 
 fn conditions(case: &BearingCase) -> Conditions<'static> {

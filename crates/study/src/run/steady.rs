@@ -1,6 +1,8 @@
 //! One state of the journal: given, or found as the equilibrium under a load.
 
-use super::{ProgressCallback, conditions, film_of, note_edge_contact, note_outcome};
+use super::{
+    ProgressCallback, conditions, film_of, note_edge_contact, note_outcome, with_reynolds_number,
+};
 use crate::input::{Analysis, BearingCase, FilmSettings, SteadyLoad, Study, TiltCondition};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, Dynamics, FieldSnapshot, Header, SteadyResults, status_name};
@@ -206,7 +208,10 @@ fn steady(
         state.position = [f64::NAN; 2];
     }
     let (reaction, summary) = if has_film {
-        (answer.reaction, film.summary())
+        (
+            answer.reaction,
+            with_reynolds_number(film.summary(), case, &state),
+        )
     } else {
         (no_reaction(), no_summary())
     };
