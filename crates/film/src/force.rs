@@ -182,9 +182,9 @@ pub struct Reaction {
     pub film_moment: [f64; 2],
     /// Moment of asperity contact, N m.
     pub contact_moment: [f64; 2],
-    /// Torque that resists the journal's rotation, N m.
+    /// Torque of the shear that resists the journal's rotation, N m.
     pub friction_torque_journal: f64,
-    /// Torque that drags the shell along, N m.
+    /// Torque of the shear that drags the shell along, N m.
     pub friction_torque_shell: f64,
 }
 
@@ -263,7 +263,8 @@ pub struct FilmSummary {
     pub mass_balance_relative: f64,
     /// Friction torque of the journal times its speed relative to the shell, W.
     pub friction_power: f64,
-    /// Power that squeeze motion and tilt rates put into the film, -F v - M tilt_rate, W.
+    /// Power that squeeze motion and tilt rates put into the film, -F v - M tilt_rate, W, and what a
+    /// journal that is not round puts in as it turns.
     pub squeeze_power: f64,
     /// Share of the land area that carries a full film.
     pub full_film_share: f64,
