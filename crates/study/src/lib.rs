@@ -3,6 +3,7 @@
 pub mod cases;
 pub mod hdf5;
 pub mod input;
+mod key_figures;
 pub mod ledger;
 pub mod limits;
 pub mod models;
