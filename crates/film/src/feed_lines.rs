@@ -6,8 +6,9 @@
 //! ```
 //! The pressure of the feed is one unknown beside those of the cells. A line that brings less than
 //! the film takes leaves the feed at cavitation pressure, starved: the surfaces then drag away oil of
-//! the film fraction `theta`, the unknown instead, so that oil is conserved. Closures that do not
-//! conserve oil hold a starved feed full at cavitation pressure and make the missing oil.
+//! the film fraction `theta`, the unknown instead, so that oil is conserved. `reynolds` holds a
+//! starved feed full at cavitation pressure and makes the missing oil; `gumbel` cuts the pressure of
+//! a feed like any other, after the solution.
 //!
 //! For a fixed set the film is linear in these unknowns u. With the film's matrix M, its answer to
 //! them `W = M^-1 B`, and the balances of the feeds `C x + D u = ...`, the film is bordered by the
@@ -356,6 +357,35 @@ impl FeedLines {
         true
     }
 
+    /// One step of iterative refinement on the balances of the pockets: `film` is the flow into the
+    /// film per feed, 1/s, of the film `x`. Where little flows behind a low resistance, elimination
+    /// leaves much of it as round-off.
+    pub(crate) fn refine(&mut self, film: &[f64], x: &mut [f64], conserves: bool) {
+        self.lanes.clear();
+        for of in &self.unknown {
+            let taken = self.taken(of.pocket, film);
+            let pressure = if of.starved { 0.0 } else { of.value };
+            let residual = if conserves || !of.starved {
+                of.supply - pressure - of.resistance * taken
+            } else {
+                0.0
+            };
+            self.lanes.push([residual, 0.0, 0.0, 0.0]);
+        }
+        self.scratch.clear();
+        self.scratch.extend_from_slice(&self.system);
+        if !solve_dense(&mut self.scratch, &mut self.lanes) {
+            return;
+        }
+        let steps = self.lanes.iter().zip(&self.responses);
+        for (of, ([step, ..], response)) in self.unknown.iter_mut().zip(steps) {
+            of.value += step;
+            for (x, response) in x.iter_mut().zip(response) {
+                *x += step * response;
+            }
+        }
+    }
+
     /// Makes the equation of a pocket say that its unknown is 0: it is held at cavitation pressure.
     fn hold(&mut self, slot: usize) {
         let count = self.unknown.len();
@@ -376,7 +406,7 @@ impl FeedLines {
             let next = if !of.starved {
                 of.value < 0.0 && of.drain > 0.0
             } else if conserves {
-                of.value <= 1.0
+                (0.0..=1.0).contains(&of.value)
             } else {
                 let taken = self.taken(of.pocket, film);
                 of.supply <= of.resistance * (taken + tolerance)

@@ -197,6 +197,19 @@ impl FilmState {
             return false;
         }
         self.refine();
+        self.take_fields(closure);
+        if self.lines.has_unknowns() && !closure.cuts_pressures() {
+            self.sum_film_flows();
+            self.lines
+                .refine(&self.film_flows, &mut self.solution, conserves);
+            self.lines.fill(&self.fed_by, conserves, &mut self.set);
+            self.take_fields(closure);
+        }
+        self.solution.iter().all(|x| x.is_finite())
+    }
+
+    /// Pressure, film fraction and balance of the solution.
+    fn take_fields(&mut self, closure: &dyn CavitationModel) {
         self.snap_round_off();
         closure.fields(
             &self.set,
@@ -207,7 +220,16 @@ impl FilmState {
         self.flow_scale =
             self.operator
                 .balance(&self.pressure, &self.film_fraction, &mut self.excess);
-        self.solution.iter().all(|x| x.is_finite())
+    }
+
+    /// Flow into the film per feed, 1/s.
+    fn sum_film_flows(&mut self) {
+        self.film_flows.fill(0.0);
+        for (excess, feed) in self.excess.iter().zip(&self.fed_by) {
+            if let Some(feed) = feed {
+                self.film_flows[*feed] -= excess;
+            }
+        }
     }
 
     /// Adds what the unknown pressures of feeds behind lines do to the film solved without them.
@@ -272,12 +294,7 @@ impl FilmState {
     }
 
     pub(crate) fn account_feeds(&mut self, bearing: &Bearing, extent: Extent) {
-        self.film_flows.fill(0.0);
-        for (excess, feed) in self.excess.iter().zip(&self.fed_by) {
-            if let Some(feed) = feed {
-                self.film_flows[*feed] -= excess;
-            }
-        }
+        self.sum_film_flows();
         let units = [self.units.pressure, extent.images() * self.units.flow];
         let cavitation = bearing.cavitation_pressure;
         self.lines
@@ -287,7 +304,11 @@ impl FilmState {
     pub(crate) fn advance_set(&mut self, closure: &dyn CavitationModel) -> usize {
         let tolerance = ROUND_OFF * self.flow_scale;
         let conserves = closure.conserves_mass();
-        let lines = self.lines.update(&self.film_flows, tolerance, conserves);
+        let lines = if closure.cuts_pressures() {
+            0
+        } else {
+            self.lines.update(&self.film_flows, tolerance, conserves)
+        };
         lines
             + closure.update_set(
                 &self.operator,

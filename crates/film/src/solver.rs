@@ -282,6 +282,13 @@ impl FilmSolver {
             .hold_feeds_to_edges(&self.grid, &film.set.cells);
     }
 
+    /// The settled film keeps its conditions: where next to nothing flows, round-off of ill-posed
+    /// balances (idle circles of a ruptured film) may leave film fractions that mean nothing.
+    fn keeps_conditions(&self) -> bool {
+        const LARGEST_VIOLATION: f64 = 1e-6;
+        self.closure.cuts_pressures() || self.film.complementarity_violation() <= LARGEST_VIOLATION
+    }
+
     fn solved(&self) -> SolvedFilm<'_> {
         SolvedFilm {
             bearing: &self.bearing,
@@ -378,12 +385,16 @@ impl FilmForce for FilmSolver {
         self.film.reaction = reaction;
         self.film
             .write_fields(&self.bearing, &self.grid, self.extent, turned);
-        let moved = self.film.advance_set(self.closure.as_ref());
+        let settled = self.film.advance_set(self.closure.as_ref()) == 0;
         Ok(Linearised {
             reaction,
             tangent,
-            settled: moved == 0,
-            outcome: Outcome::Converged,
+            settled,
+            outcome: if settled && !self.keeps_conditions() {
+                Outcome::NotConverged
+            } else {
+                Outcome::Converged
+            },
         })
     }
 

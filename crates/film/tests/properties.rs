@@ -9,9 +9,10 @@
 mod common;
 
 use common::{conditions, oil};
+use sommerfeld_film::narrowest::GapSearch;
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmForce, FilmShear,
-    FilmSolver, Inlet, JournalState, Outcome, Shape, Step,
+    Bearing, Carrier, Cavitation, Ends, Feature, Feed, FeedLine, FeedShape, FilmForce, FilmShear,
+    FilmSolver, Inlet, JournalState, Outcome, ReliefForm, Shape, Step,
 };
 use std::f64::consts::TAU;
 
@@ -99,6 +100,94 @@ fn random_bearing(random: &mut Random) -> Bearing {
     bearing
 }
 
+/// A feature no deeper than half the clearance; one that is alike all around where the inlet follows
+/// the line of the widest gap.
+fn random_feature(random: &mut Random, bearing: &Bearing) -> Feature {
+    let half_width = 0.5 * bearing.width;
+    let depth = random.between(0.02, 0.5) * bearing.radial_clearance;
+    let joint = random.between(0.0, TAU);
+    let kinds: &[u8] = match bearing.inlet {
+        Inlet::Cyclic => &[0, 1, 2, 3, 4, 5],
+        Inlet::MaxFilmLine { .. } => &[0, 1],
+    };
+    match random.pick(kinds) {
+        0 => Feature::Crowning {
+            end_offset: random.pick(&[-1.0, 1.0]) * depth,
+            half_width,
+        },
+        1 => Feature::EndRelief {
+            end: random.pick(&[-1.0, 1.0]) * half_width,
+            length: random.between(0.05, 0.9) * half_width,
+            end_offset: random.pick(&[-1.0, 1.0]) * depth,
+            form: random.pick(&[ReliefForm::Linear, ReliefForm::Circular]),
+        },
+        2 => Feature::Lemon {
+            shift: depth,
+            joint,
+        },
+        3 => Feature::OffsetHalves {
+            shift: depth,
+            joint,
+        },
+        4 => Feature::JointRelief {
+            offset: depth,
+            half_span: random.between(0.05, 0.8),
+            joint,
+        },
+        _ => Feature::Harmonic {
+            order: random.pick(&[1, 2, 3, 5, 8]),
+            amplitude: 0.5 * depth,
+            phase: joint,
+        },
+    }
+}
+
+/// Puts lines before some feeds, and makes bores and journals of many bearings no cylinders.
+fn complete(random: &mut Random, bearing: &mut Bearing) {
+    for feed in &mut bearing.feeds {
+        if random.unit() < 0.5 {
+            let resistance = 10_f64.powf(random.between(8.0, 14.0));
+            feed.line = FeedLine::Resistive { resistance };
+        }
+    }
+    let of_bore = random.pick(&[0, 0, 1, 2]);
+    let features: Vec<Feature> = (0..of_bore)
+        .map(|_| random_feature(random, bearing))
+        .collect();
+    let of_journal = random.pick(&[0, 0, 0, 1]);
+    let waves: Vec<Feature> = (0..of_journal)
+        .map(|_| random_feature(random, bearing))
+        .collect();
+    bearing.bore = Shape::of(features);
+    // Those two are features of bores.
+    let is_of_bores = |feature: &Feature| {
+        matches!(
+            feature,
+            Feature::OffsetHalves { .. } | Feature::JointRelief { .. }
+        )
+    };
+    let waves = waves.into_iter().filter(|wave| !is_of_bores(wave));
+    bearing.journal = Shape::of(waves.collect::<Vec<_>>());
+}
+
+/// Draws the journal towards the centre until its gap is open everywhere; `false` where it fits not
+/// even there.
+fn fit(bearing: &Bearing, state: &mut JournalState) -> bool {
+    let search = GapSearch::of(bearing);
+    let is_open = |state: &JournalState| {
+        search.narrowest(bearing, state).gap > 1e-3 * bearing.radial_clearance
+    };
+    for _ in 0..60 {
+        if is_open(state) {
+            return true;
+        }
+        state.position = state.position.map(|x| 0.9 * x);
+        state.tilt = state.tilt.map(|t| 0.9 * t);
+    }
+    (state.position, state.tilt) = ([0.0; 2], [0.0; 2]);
+    is_open(state)
+}
+
 /// Eccentricity up to 0.995, tilt up to 0.95 of contact, any direction of any motion.
 fn random_state(random: &mut Random, bearing: &Bearing) -> JournalState {
     let c = bearing.radial_clearance;
@@ -145,9 +234,13 @@ fn random_bearings_give_a_film_or_a_named_outcome() {
     let (mut starved, mut most) = (0, 0);
     for seed in 0..count {
         let mut random = Random(seed);
-        let bearing = random_bearing(&mut random);
-        let state = random_state(&mut random, &bearing);
+        let mut bearing = random_bearing(&mut random);
+        let mut state = random_state(&mut random, &bearing);
         let cells = random.pick(&[[48, 12], [64, 16], [64, 16], [96, 16]]);
+        complete(&mut random, &mut bearing);
+        if !bearing.is_plain() && !fit(&bearing, &mut state) {
+            continue;
+        }
         let mut film = FilmSolver::new(&bearing, &oil(), cells).unwrap();
         let answer = film.react(&state, Step::Steady, &conditions()).unwrap();
         let summary = film.summary();
@@ -157,12 +250,10 @@ fn random_bearings_give_a_film_or_a_named_outcome() {
                 most = most.max(summary.iterations);
                 let [x, y] = answer.reaction.force();
                 assert!(x.is_finite() && y.is_finite(), "seed {seed}");
-                assert!(
-                    summary.complementarity_violation == 0.0
-                        || bearing.cavitation == Cavitation::Gumbel,
-                    "seed {seed}: {:e}",
-                    summary.complementarity_violation
-                );
+                let violation = summary.complementarity_violation;
+                if bearing.cavitation != Cavitation::Gumbel && violation != 0.0 {
+                    failures.push(format!("seed {seed}: violation {violation:e}"));
+                }
                 if bearing.cavitation != Cavitation::Gumbel && summary.cell_residual > 1e-10 {
                     failures.push(format!("seed {seed}: residual {:e}", summary.cell_residual));
                 }

@@ -14,6 +14,10 @@ impl CavitationModel for Gumbel {
         false
     }
 
+    fn cuts_pressures(&self) -> bool {
+        true
+    }
+
     fn assemble(
         &self,
         operator: &Operator,

@@ -23,6 +23,12 @@ pub trait CavitationModel: Send + Sync {
     /// Oil is conserved in every cell.
     fn conserves_mass(&self) -> bool;
 
+    /// Pressures below cavitation pressure are part of the solution and cut afterwards: no cell and
+    /// no feed ruptures.
+    fn cuts_pressures(&self) -> bool {
+        false
+    }
+
     /// Writes the linear equations of the set into `matrix` and `rhs`.
     fn assemble(
         &self,

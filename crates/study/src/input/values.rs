@@ -112,7 +112,12 @@ impl Refusal {
         error.allowed = self.allowed;
         error.hint = self.hint;
         if self.is_out_of_range && error.hint.is_none() {
-            error.hint = Some(key.meaning.to_owned());
+            // Its first sentence; `explain` has the rest.
+            let end = key
+                .meaning
+                .find(". ")
+                .map_or(key.meaning.len(), |end| end + 1);
+            error.hint = Some(key.meaning[..end].to_owned());
         }
         error
     }

@@ -83,8 +83,9 @@ impl Checker<'_> {
             Err(error) => {
                 let message = format!("the base study cannot be used: {}", error.message);
                 let refused = self.error_at("sweep.base", message);
+                let shown: String = name.chars().take(300).collect();
                 self.errors
-                    .push(refused.hinting(format!("it was looked for at {}", path.display())));
+                    .push(refused.hinting(format!("it was looked for at {shown}")));
                 return None;
             }
         };
