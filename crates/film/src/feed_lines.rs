@@ -500,7 +500,8 @@ impl FeedLines {
             let pressure = match (holder, self.slot[pocket]) {
                 (Some(holder), _) => self.supply[holder],
                 (None, Some(slot)) if self.unknown[slot].starved => 0.0,
-                (None, Some(slot)) => self.unknown[slot].value,
+                // A closure that cuts pressures cuts those of feeds.
+                (None, Some(slot)) => self.unknown[slot].value.max(0.0),
                 (None, None) => self.supply[feed],
             };
             flows[feed].pressure = pressure * pressure_unit + cavitation_pressure;
