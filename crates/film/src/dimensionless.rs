@@ -12,7 +12,9 @@
 use crate::bearing::{Bearing, Cavitation, Ends, FilmShear, Inlet};
 use crate::force::{Conditions, FilmError, FilmForce, FilmSummary, Outcome, Reaction, Step};
 use crate::journal_state::JournalState;
-use crate::richardson::{Estimate, Sample, cell_size, estimate, grid_sequence, vector_errors};
+use crate::richardson::{
+    Estimate, Kind, Sample, cell_size, estimate, grid_sequence, vector_errors,
+};
 use crate::shape::Shape;
 use crate::solver::FilmSolver;
 use serde::{Deserialize, Serialize};
@@ -290,18 +292,19 @@ pub fn refine_dimensionless(
 
 /// Limits of three runs, the finest first, and their errors.
 fn extrapolated(runs: [([usize; 2], DimensionlessIntegrals); 3]) -> [DimensionlessIntegrals; 2] {
-    let of = |figure: fn(&DimensionlessIntegrals) -> f64| {
-        estimate(runs.map(|(grid, integrals)| Sample {
+    let of = |kind: Kind, figure: fn(&DimensionlessIntegrals) -> f64| {
+        let samples = runs.map(|(grid, integrals)| Sample {
             size: cell_size(grid),
             value: figure(&integrals),
-        }))
+        });
+        estimate(kind, samples)
     };
     let figures = [
-        of(|i| i.p_cos),
-        of(|i| i.p_sin),
-        of(|i| i.p_z_cos),
-        of(|i| i.p_z_sin),
-        of(|i| i.peak),
+        of(Kind::Integral, |i| i.p_cos),
+        of(Kind::Integral, |i| i.p_sin),
+        of(Kind::Integral, |i| i.p_z_cos),
+        of(Kind::Integral, |i| i.p_z_sin),
+        of(Kind::Extreme, |i| i.peak),
     ];
     let gathered = |of: fn(&Estimate) -> f64| {
         let [p_cos, p_sin, p_z_cos, p_z_sin, peak] = figures.each_ref().map(of);

@@ -20,6 +20,7 @@ use crate::grid::Grid;
 use crate::journal_state::JournalState;
 use crate::linear::Lanes;
 use crate::narrowest::GapSearch;
+use crate::peak::{CENTRE, Peak, WIDTH, Window, parabola_peak};
 use crate::reynolds::{Axial, Cell, Operator, Storage};
 use crate::surfaces::Surfaces;
 
@@ -287,13 +288,78 @@ impl SolvedFilm<'_> {
             - self.profile_torque() * (state.journal_speed - state.shell_speed);
     }
 
-    /// Peak of the parabolas through the highest cell and its neighbours, Pa.
+    /// Peak of the surface through the highest cell and those around it, Pa.
     fn peak_pressure(&self) -> Extreme {
-        let m = self.grid.n_axial();
         let highest = (0..self.pressure.len())
             .max_by(|&a, &b| self.pressure[a].total_cmp(&self.pressure[b]))
             .unwrap_or(0);
-        let (i, j) = (highest / m, highest % m);
+        let (i, j) = (highest / self.grid.n_axial(), highest % self.grid.n_axial());
+        let peak = self
+            .window(i, j)
+            .peak()
+            .unwrap_or_else(|| self.separate_peak(i, j));
+        Extreme {
+            value: (self.pressure[highest] + peak.rise) * self.units.pressure
+                + self.bearing.cavitation_pressure,
+            angle: self.grid.around[i] + peak.around,
+            axial: (self.grid.axial[j] + peak.axial) * self.units.radius,
+        }
+    }
+
+    /// The cells around cell `(i, j)`; beyond a mid-plane those before it.
+    fn window(&self, i: usize, j: usize) -> Window {
+        let m = self.grid.n_axial();
+        let z = &self.grid.axial;
+        let column = |offset: usize| {
+            let column = (j + offset).checked_sub(CENTRE)?;
+            if column < m {
+                return Some((column, z[column]));
+            }
+            let mirrored = (2 * m).checked_sub(column + 1)?;
+            let middle = self.grid.axial_faces[m];
+            self.operator
+                .ends_at_mid_plane
+                .then_some((mirrored, 2.0 * middle - z[mirrored]))
+        };
+        let columns: [_; WIDTH] = std::array::from_fn(column);
+        let mut window = Window {
+            around: [0.0; WIDTH],
+            axial: columns.map(|column| column.map_or(f64::NAN, |(_, place)| place - z[j])),
+            pressure: [[f64::NAN; WIDTH]; WIDTH],
+        };
+        let mut fill = |row: usize, i: usize| {
+            for (pressure, column) in window.pressure[row].iter_mut().zip(columns) {
+                let Some((column, _)) = column else { continue };
+                if self.set.cells[i * m + column] == Cell::Full {
+                    *pressure = self.pressure[i * m + column];
+                }
+            }
+        };
+        fill(CENTRE, i);
+        for is_east in [false, true] {
+            let (mut here, mut place) = (i, 0.0);
+            for step in 1..=CENTRE {
+                let [to_west, to_east] = self.distances_around(here);
+                let (next, row) = if is_east {
+                    place += to_east;
+                    (self.operator.east(here, 0), CENTRE + step)
+                } else {
+                    place -= to_west;
+                    (self.operator.west(here, 0), CENTRE - step)
+                };
+                let Some(next) = next else { break };
+                here = next / m;
+                window.around[row] = place;
+                fill(row, here);
+            }
+        }
+        window
+    }
+
+    /// Peaks of two parabolas through cell `(i, j)` and its neighbours, around and along.
+    fn separate_peak(&self, i: usize, j: usize) -> Peak {
+        let m = self.grid.n_axial();
+        let highest = i * m + j;
         let top = self.pressure[highest];
         let around = match (self.operator.west(i, j), self.operator.east(i, j)) {
             (Some(west), Some(east)) => parabola_peak(
@@ -320,11 +386,10 @@ impl SolvedFilm<'_> {
                 [z[j] - z[j - 1], z[j + 1] - z[j]],
             )
         };
-        Extreme {
-            value: (top + around.1 + along.1) * self.units.pressure
-                + self.bearing.cavitation_pressure,
-            angle: self.grid.around[i] + around.0,
-            axial: (self.grid.axial[j] + along.0) * self.units.radius,
+        Peak {
+            around: around.0,
+            axial: along.0,
+            rise: around.1 + along.1,
         }
     }
 
@@ -544,20 +609,6 @@ impl Sensitivity {
             })
         })
     }
-}
-
-/// Offset and height above the middle one of the peak of the parabola through three values at the
-/// given distances.
-fn parabola_peak([before, middle, behind]: [f64; 3], [d_before, d_behind]: [f64; 2]) -> (f64, f64) {
-    let slope_before = (middle - before) / d_before;
-    let slope_behind = (behind - middle) / d_behind;
-    let curvature = (slope_behind - slope_before) / (d_before + d_behind);
-    if curvature >= 0.0 {
-        return (0.0, 0.0);
-    }
-    let slope = (slope_before * d_behind + slope_behind * d_before) / (d_before + d_behind);
-    let offset = (-0.5 * slope / curvature).clamp(-0.5 * d_before, 0.5 * d_behind);
-    (offset, offset * (slope + curvature * offset))
 }
 
 /// Waviness of a state's position and of its motion, relative to the clearance.

@@ -25,6 +25,7 @@ pub mod journal_state;
 pub mod linear;
 pub mod mirror;
 pub mod narrowest;
+pub mod peak;
 pub mod reynolds;
 pub mod richardson;
 pub mod shape;

@@ -11,7 +11,9 @@ use crate::verify::{
 use sommerfeld_film::dimensionless::{
     DimensionlessFilm, DimensionlessIntegrals, MOST_CELLS, refine_dimensionless,
 };
-use sommerfeld_film::richardson::{SMALLEST_GRID, Sample, cell_size, estimate, grid_sequence};
+use sommerfeld_film::richardson::{
+    Kind, SMALLEST_GRID, Sample, cell_size, estimate, grid_sequence,
+};
 use sommerfeld_film::{FilmError, Outcome};
 use std::collections::BTreeMap;
 
@@ -326,7 +328,8 @@ fn extrapolated(runs: [&([usize; 2], Results); 3]) -> (Results, (String, f64)) {
                 size: sizes[k],
                 value: values[k],
             });
-            *value = estimate(samples).extrapolated;
+            // The limit is the same for either kind.
+            *value = estimate(Kind::Integral, samples).extrapolated;
         }
     }
     let [fine, ..] = bodies;
