@@ -1,7 +1,7 @@
 //! `explain`: what a key means, in words, from the table of keys.
 
 use super::keys::KEYS;
-use super::schema::{self, GRID_LIMITS, Key, Kind, Presence, Range};
+use super::schema::{self, GRID_LIMITS, Key, Kind, Presence};
 use std::fmt::Write as _;
 
 /// What a key or section means.
@@ -91,8 +91,8 @@ fn range(kind: &Kind) -> Option<String> {
         | Kind::Quantity(_, range)
         | Kind::QuantityOrLaw(_, range)
         | Kind::List(_, range)
+        | Kind::Pair(_, range)
         | Kind::Limit(_, range) => Some(range.to_string()),
-        Kind::Pair(_) => Some(Range::ANY.to_string()),
         Kind::Integer(low, high) if low == high => Some(low.to_string()),
         Kind::Integer(low, high) => Some(format!("at least {low}, at most {high}")),
         Kind::Grid => {
@@ -122,7 +122,7 @@ fn kind(kind: &Kind) -> String {
         Kind::Number(_) => "a number without unit".into(),
         Kind::Quantity(dimension, _) => units(dimension),
         Kind::QuantityOrLaw(dimension, _) => format!("{}, or a table", units(dimension)),
-        Kind::Pair(dimension) => format!("[x, y], each {}", units(dimension)),
+        Kind::Pair(dimension, _) => format!("[x, y], each {}", units(dimension)),
         Kind::List(dimension, _) => format!("a list, each {}", units(dimension)),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
@@ -161,7 +161,7 @@ mod tests {
                 Kind::Quantity(dimension, _)
                 | Kind::QuantityOrLaw(dimension, _)
                 | Kind::Limit(dimension, _)
-                | Kind::Pair(dimension) => Some(dimension),
+                | Kind::Pair(dimension, _) => Some(dimension),
                 _ => None,
             };
             for unit in dimension.iter().flat_map(|dimension| dimension.units()) {
