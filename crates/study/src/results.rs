@@ -544,7 +544,11 @@ impl CycleResults {
         let orbit = &self.orbit;
         figures.push((
             "cycles",
-            format!("{} (closure {:.1e})", orbit.cycles, orbit.closure),
+            format!(
+                "{} (closure {})",
+                orbit.cycles,
+                shown(orbit.closure, |closure| format!("{closure:.1e}"))
+            ),
         ));
         figures
     }

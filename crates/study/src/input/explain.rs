@@ -25,11 +25,15 @@ pub fn explain(path: &str) -> Result<String, Option<&'static str>> {
     Ok(text)
 }
 
-/// All keys with their meaning, one a line.
+/// All keys with their meaning, one a line, in the parts of the study file.
 #[must_use]
 pub fn list_keys() -> String {
     let mut text = String::new();
     for key in KEYS {
+        // A blank line before each part of the study file.
+        if key.section().is_empty() && !matches!(key.path, "schema" | "title" | "analysis") {
+            text.push('\n');
+        }
         let note = if key.is_built() {
             ""
         } else {

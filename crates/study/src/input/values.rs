@@ -352,12 +352,18 @@ fn quantities(
         .allowing(format!("1 to {LONGEST_LIST} values")));
     }
     list.iter()
-        .map(|value| match value.get_ref() {
-            DeValue::String(text) => quantity(text, dimension, range),
-            other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
-                Err(bare_quantity(other, dimension))
-            }
-            _ => Err(Refusal::new(format!("must be {}", wanted()))),
+        .map(|value| {
+            let read = match value.get_ref() {
+                DeValue::String(text) => quantity(text, dimension, range),
+                other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
+                    Err(bare_quantity(other, dimension))
+                }
+                _ => Err(Refusal::new(format!("must be {}", wanted()))),
+            };
+            read.map_err(|refusal| Refusal {
+                part: Some(value.span()),
+                ..refusal
+            })
         })
         .collect()
 }
