@@ -8,7 +8,8 @@ use std::path::PathBuf;
 #[command(name = "sommerfeld", version, arg_required_else_help = true)]
 #[command(
     after_help = "Exit status: 0 done; 1 something did not converge; 2 the input was refused; \
-                        3 the machine failed (disk, permissions); 130 interrupted."
+                        3 the machine failed (disk, permissions); 130 interrupted, a sweep goes on with \
+                        the same command."
 )]
 pub struct Arguments {
     /// What to do.
@@ -28,7 +29,8 @@ pub enum Command {
     },
     /// Write a study to start from
     New {
-        /// Which one: big-end, main-bearing, coefficients, one-axis-cycle, film, dimensionless
+        /// Which one: big-end, main-bearing, coefficients, lemon-bearing, clearance-sweep,
+        /// one-axis-cycle, film, dimensionless
         template: String,
         /// Where to write it; made if it is not there
         directory: PathBuf,

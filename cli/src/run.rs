@@ -22,7 +22,7 @@ pub struct RunArguments {
     /// Solve on coarser grids and with longer time steps too, and state error bars
     #[arg(long)]
     pub verify: bool,
-    /// Threads to use [default: one for each processor]
+    /// Threads for the cases of a sweep; no result depends on it [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
 }
@@ -48,14 +48,14 @@ pub fn run(arguments: &RunArguments) -> Exit {
     progress.finish();
     match ended {
         Ok(summary) => {
-            tell(&summary, &out);
+            let told = commands::print(&told(&summary, &out));
             let header = &summary.results.header;
             let is_unfinished = is_unfinished(&summary.results, arguments.verify);
             if stop.load(Ordering::Relaxed) && is_unfinished {
                 eprintln!("interrupted: run the same command again to finish it");
                 Exit::Interrupted
             } else if header.status == Outcome::Converged {
-                Exit::Done
+                told
             } else {
                 Exit::NotConverged
             }
@@ -88,20 +88,24 @@ fn is_unfinished(results: &Results, verify: bool) -> bool {
 }
 
 /// Status, key figures and the place of the report, a few lines.
-fn tell(summary: &RunSummary, out: &Path) {
+fn told(summary: &RunSummary, out: &Path) -> String {
     let header = &summary.results.header;
-    println!("{}: {}", header.analysis, status_name(header.status));
+    let mut text = format!("{}: {}\n", header.analysis, status_name(header.status));
     for message in &header.messages {
-        println!("  {message}");
+        text += &format!("  {message}\n");
     }
     for (name, value) in summary.results.key_figures() {
-        println!("  {name:<24} {value}");
+        text += &format!("  {name:<24} {value}\n");
     }
     for check in &header.limits {
-        println!("  {check}");
+        text += &format!("  {check}\n");
     }
-    println!("results in {}", out.display());
-    println!("report  in {}", out.join("report.html").display());
+    let report = out.join("report.html");
+    text + &format!(
+        "results in {}\nreport  in {}\n",
+        out.display(),
+        report.display()
+    )
 }
 
 /// Beside the study, named after it.

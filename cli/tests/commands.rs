@@ -29,14 +29,8 @@ fn text(output: &Output) -> (i32, String, String) {
 #[test]
 fn every_template_is_written_and_accepted() {
     let directory = tempfile::tempdir().unwrap();
-    for name in [
-        "big-end",
-        "main-bearing",
-        "coefficients",
-        "one-axis-cycle",
-        "film",
-        "dimensionless",
-    ] {
+    for template in sommerfeld_study::templates::TEMPLATES {
+        let name = template.name;
         let (code, out, err) = text(&sommerfeld(&["new", name, "studies"], directory.path()));
         assert_eq!((code, err.as_str()), (0, ""), "{name}");
         let (code, out, err) = text(&sommerfeld(&["check", out.trim()], directory.path()));

@@ -23,6 +23,34 @@ fn study(analysis: &str, film: &str, duty: &str) -> String {
 }
 
 /// A film that conserves mass and is fed by nothing: named, no number, and what to do about it.
+/// `sommerfeld run study.toml | head -1`: what nobody reads any more is no failure.
+#[test]
+fn a_reader_that_closes_the_output_is_no_failure() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = directory.path().join("study.toml");
+    let template = sommerfeld_study::templates::find("dimensionless").unwrap();
+    fs::write(
+        &file,
+        template.study.replace("[film]", "[film]\ngrid = [32, 8]"),
+    )
+    .unwrap();
+    let mut child = common::sommerfeld()
+        .arg("run")
+        .arg(&file)
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let ended = child.wait_with_output().unwrap();
+    let err = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(0), "{err}");
+    assert!(
+        directory.path().join("study/summary.json").exists(),
+        "{err}"
+    );
+}
+
 #[test]
 fn without_supply_a_run_is_starved() {
     for (analysis, duty) in [

@@ -199,7 +199,11 @@ impl CycleResults {
         let orbit = &self.orbit;
         figures.push((
             "cycles",
-            format!("{} (closure {:.1e})", orbit.cycles, orbit.closure),
+            format!(
+                "{} (closure {})",
+                orbit.cycles,
+                shown(orbit.closure, |closure| format!("{closure:.1e}"))
+            ),
         ));
         figures
     }
@@ -218,18 +222,33 @@ fn two_digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// A number as text; `n/a` for one that was not found.
+fn shown(value: f64, text: impl FnOnce(f64) -> String) -> String {
+    if value.is_finite() {
+        text(value)
+    } else {
+        "n/a".to_owned()
+    }
+}
+
 fn micrometres(metres: f64, key: &str, bars: ErrorBars<'_>) -> String {
-    format!("{:.4}{} um", 1e6 * metres, bars.text(key, 1e6))
+    shown(metres, |m| {
+        format!("{:.4}{} um", 1e6 * m, bars.text(key, 1e6))
+    })
 }
 
 fn megapascals(pascals: f64, key: &str, bars: ErrorBars<'_>) -> String {
-    format!("{:.3}{} MPa", 1e-6 * pascals, bars.text(key, 1e-6))
+    shown(pascals, |p| {
+        format!("{:.3}{} MPa", 1e-6 * p, bars.text(key, 1e-6))
+    })
 }
 
 fn watts(watts: f64, key: &str, bars: ErrorBars<'_>) -> String {
-    format!("{watts:.1}{} W", bars.text(key, 1.0))
+    shown(watts, |w| format!("{w:.1}{} W", bars.text(key, 1.0)))
 }
 
 fn cubic_centimetres(cubic_metres: f64, key: &str, bars: ErrorBars<'_>) -> String {
-    format!("{:.3}{} cm3/s", 1e6 * cubic_metres, bars.text(key, 1e6))
+    shown(cubic_metres, |q| {
+        format!("{:.3}{} cm3/s", 1e6 * q, bars.text(key, 1e6))
+    })
 }

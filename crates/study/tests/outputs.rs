@@ -8,7 +8,7 @@ mod synthetic;
 use serde_json::Value;
 use sommerfeld_film::Outcome;
 use sommerfeld_study::cases::{CaseRecord, CaseStatus, SweepResults, VariedColumn};
-use sommerfeld_study::output::{WRITERS, case_table, summary, write_all};
+use sommerfeld_study::output::{WRITERS, case_table, check_directory, summary, write_all};
 use sommerfeld_study::report::render;
 use sommerfeld_study::results::{Body, Results};
 use std::path::PathBuf;
@@ -59,6 +59,32 @@ fn summary_always_has_the_header() {
         assert!(summary["messages"].is_array() && summary["models"].is_array());
         assert!(number(&summary, "wall_time_s") > 0.0);
     }
+}
+
+/// A run that was killed before its summary leaves tables: the same command takes the directory.
+#[test]
+fn tables_without_their_summary_are_known() {
+    let mut tables = 0;
+    for (index, results) in all().iter().enumerate() {
+        let directory = directory(&format!("killed-{index}"));
+        let files = write_all(results, &directory).unwrap();
+        std::fs::remove_file(directory.join("summary.json")).unwrap();
+        tables += files
+            .iter()
+            .filter(|f| f.extension().is_some_and(|e| e == "csv"))
+            .count();
+        check_directory(&directory, &[]).unwrap();
+        // Results of another kind leave none of these tables beside their summary.
+        write_all(&synthetic::dimensionless("integrals"), &directory).unwrap();
+        let left = std::fs::read_dir(&directory).unwrap();
+        let left = left.map(|entry| entry.unwrap().path());
+        assert_eq!(
+            left.filter(|f| f.extension().is_some_and(|e| e == "csv"))
+                .count(),
+            0
+        );
+    }
+    assert!(tables >= 4, "{tables}");
 }
 
 #[test]

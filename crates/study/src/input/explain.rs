@@ -1,7 +1,7 @@
 //! `explain`: what a key means, in words, from the table of keys.
 
 use super::keys::KEYS;
-use super::schema::{self, GRID_LIMITS, Key, Kind, Presence, Range};
+use super::schema::{self, GRID_LIMITS, Key, Kind, Presence};
 use std::fmt::Write as _;
 
 /// What a key or section means.
@@ -25,11 +25,15 @@ pub fn explain(path: &str) -> Result<String, Option<&'static str>> {
     Ok(text)
 }
 
-/// All keys with their meaning, one a line.
+/// All keys with their meaning, one a line, in the parts of the study file.
 #[must_use]
 pub fn list_keys() -> String {
     let mut text = String::new();
     for key in KEYS {
+        // A blank line before each part of the study file.
+        if key.section().is_empty() && !matches!(key.path, "schema" | "title" | "analysis") {
+            text.push('\n');
+        }
         let note = if key.is_built() {
             ""
         } else {
@@ -91,8 +95,8 @@ fn range(kind: &Kind) -> Option<String> {
         | Kind::Quantity(_, range)
         | Kind::QuantityOrLaw(_, range)
         | Kind::List(_, range)
+        | Kind::Pair(_, range)
         | Kind::Limit(_, range) => Some(range.to_string()),
-        Kind::Pair(_) => Some(Range::ANY.to_string()),
         Kind::Integer(low, high) if low == high => Some(low.to_string()),
         Kind::Integer(low, high) => Some(format!("at least {low}, at most {high}")),
         Kind::Grid => {
@@ -122,7 +126,7 @@ fn kind(kind: &Kind) -> String {
         Kind::Number(_) => "a number without unit".into(),
         Kind::Quantity(dimension, _) => units(dimension),
         Kind::QuantityOrLaw(dimension, _) => format!("{}, or a table", units(dimension)),
-        Kind::Pair(dimension) => format!("[x, y], each {}", units(dimension)),
+        Kind::Pair(dimension, _) => format!("[x, y], each {}", units(dimension)),
         Kind::List(dimension, _) => format!("a list, each {}", units(dimension)),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
@@ -161,7 +165,7 @@ mod tests {
                 Kind::Quantity(dimension, _)
                 | Kind::QuantityOrLaw(dimension, _)
                 | Kind::Limit(dimension, _)
-                | Kind::Pair(dimension) => Some(dimension),
+                | Kind::Pair(dimension, _) => Some(dimension),
                 _ => None,
             };
             for unit in dimension.iter().flat_map(|dimension| dimension.units()) {

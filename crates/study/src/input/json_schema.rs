@@ -82,7 +82,7 @@ fn plain(kind: &Kind) -> Value {
             Value::Object(number)
         }
         Kind::Quantity(dimension, _) => quantity(dimension),
-        Kind::Pair(dimension) => json!({
+        Kind::Pair(dimension, _) => json!({
             "type": "array", "items": quantity(dimension), "minItems": 2, "maxItems": 2,
         }),
         Kind::List(dimension, _) => json!({

@@ -28,7 +28,20 @@ const ANY_FILM: &[Mode] = &[Film, Dimensionless];
 const SCALED: &[Mode] = &[Dimensionless];
 const CYCLE: &[Mode] = &[LoadCycle];
 
-const SIZE: Range = Range::above(0.0, 10_000.0, "mm");
+/// Diameter and width of a bearing: from those of watches to those of mills.
+const SIZE: Range = Range::between(0.1, 10_000.0, "mm");
+/// Grooves and holes: finer ones let no oil through.
+const FEED: Range = Range::between(0.1, 10_000.0, "mm");
+/// Lengths of reliefs.
+const RELIEF: Range = Range::between(0.001, 10_000.0, "mm");
+/// No clearance is thinner than a few molecules of the oil.
+const CLEARANCE: Range = Range::between(0.001, 10_000.0, "um");
+/// Forces beyond those of any machine are slips of the unit.
+pub(super) const FORCE: Range = Range::between(-1000.0, 1000.0, "MN");
+/// A journal that tilts further fits into no bearing.
+const TILT: Range = Range::between(-1000.0, 1000.0, "mrad");
+/// Moments beyond those of any machine.
+pub(super) const MOMENT: Range = Range::between(-1e6, 1e6, "kN.m");
 /// Gauge pressures: down to vacuum, up to what no seal holds.
 const GAUGE: Range = Range::between(-1.013_25, 10_000.0, "bar");
 const SPEED: Range = Range::between(-1e6, 1e6, "rpm");
@@ -70,9 +83,9 @@ pub const KEYS: &[Key] = &[
     key("bearing", Table, Required, PHYSICAL, "The bearing: its size, clearance and oil supply.", ""),
     key("bearing.diameter", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bore diameter.", "\"30 mm\" to \"500 mm\""),
     key("bearing.width", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bearing width along the axis.", "0.2 to 1 times the diameter"),
-    key("bearing.diametral_clearance", Quantity(Dimension::Length, Range::above(0.0, 10.0, "mm")), Optional, PHYSICAL,
+    key("bearing.diametral_clearance", Quantity(Dimension::Length, CLEARANCE), Optional, PHYSICAL,
         "Bore diameter minus journal diameter: twice the radial clearance. Give this or relative_clearance.", "0.7 to 2 um per mm of diameter"),
-    key("bearing.relative_clearance", Number(Range::above(0.0, 0.1, "")), Optional, PHYSICAL,
+    key("bearing.relative_clearance", Number(Range::between(1e-6, 0.1, "")), Optional, PHYSICAL,
         "Diametral clearance over diameter. Give this or diametral_clearance.", "0.7e-3 to 2e-3"),
     key("bearing.groove", TableList, Optional, PHYSICAL, "A groove or hole that holds oil at its feed pressure; write [[bearing.groove]] for each.", ""),
     key("bearing.groove.kind", Choice(&["circumferential", "axial", "rectangle", "hole"], &[]), Required, PHYSICAL,
@@ -80,9 +93,9 @@ pub const KEYS: &[Key] = &[
     key("bearing.groove.carried_by", Choice(&["shell", "journal"], &[]), Default("shell"), PHYSICAL, "Surface that carries it; what the journal carries turns with it.", "\"shell\""),
     key("bearing.groove.angle", Quantity(Dimension::Angle, Range::ANY), Optional, PHYSICAL, "Angle of its centre from +X of its carrier, in the sense of rotation. Not for circumferential grooves.", "\"90 deg\""),
     key("bearing.groove.position", Quantity(Dimension::Length, Range::between(-10_000.0, 10_000.0, "mm")), Default("0 mm"), PHYSICAL, "Axial position of its centre from the mid-plane.", "\"0 mm\""),
-    key("bearing.groove.diameter", Quantity(Dimension::Length, SIZE), Optional, PHYSICAL, "Diameter of a hole.", "\"3 mm\" to \"10 mm\""),
-    key("bearing.groove.length", Quantity(Dimension::Length, SIZE), Optional, PHYSICAL, "Length around the circumference of an axial or rectangular groove.", "0.1 to 0.25 times the diameter"),
-    key("bearing.groove.width", Quantity(Dimension::Length, SIZE), Optional, PHYSICAL, "Width along the axis of every groove but a hole.", "\"3 mm\", up to 0.8 times the bearing width"),
+    key("bearing.groove.diameter", Quantity(Dimension::Length, FEED), Optional, PHYSICAL, "Diameter of a hole.", "\"3 mm\" to \"10 mm\""),
+    key("bearing.groove.length", Quantity(Dimension::Length, FEED), Optional, PHYSICAL, "Length around the circumference of an axial or rectangular groove.", "0.1 to 0.25 times the diameter"),
+    key("bearing.groove.width", Quantity(Dimension::Length, FEED), Optional, PHYSICAL, "Width along the axis of every groove but a hole.", "\"3 mm\", up to 0.8 times the bearing width"),
     key("bearing.groove.pressure", Quantity(Dimension::Pressure, GAUGE), Optional, PHYSICAL, "Supply pressure (gauge). Give this or pressure_file.", "\"1 bar\" to \"6 bar\""),
     key("bearing.groove.pressure_file", Text, Optional, CYCLE,
         "CSV beside the study with the supply pressure (gauge) over the period: crank_angle[deg],pressure[bar]. Give this or pressure.", "\"feed.csv\""),
@@ -107,12 +120,12 @@ pub const KEYS: &[Key] = &[
         "Parabola along the axis: by how much the gap is wider at both ends than in the mid-plane; negative for a hollow surface.", "\"2 um\" to \"10 um\""),
     key("bearing.bore.relief", Table, Optional, PHYSICAL, "Relief at the ends: the gap widens over a length.", ""),
     key("bearing.bore.relief.depth", Quantity(Dimension::Length, Range::above(0.0, 1.0, "mm")), Required, PHYSICAL, "Radial depth at the end.", "\"2 um\" to \"20 um\""),
-    key("bearing.bore.relief.length", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Length along the axis from the end.", "\"2 mm\""),
+    key("bearing.bore.relief.length", Quantity(Dimension::Length, RELIEF), Required, PHYSICAL, "Length along the axis from the end.", "\"2 mm\""),
     key("bearing.bore.relief.form", Choice(&["linear", "circular"], &[]), Default("linear"), PHYSICAL, "linear: a cone; circular: an arc that leaves the cylinder without a bend.", "\"linear\""),
     key("bearing.bore.relief.ends", Choice(&["both", "front", "rear"], &[]), Default("both"), PHYSICAL, "front: the end at -width/2; rear: the end at +width/2.", "\"both\""),
     key("bearing.bore.crush_relief", Table, Optional, PHYSICAL, "Relief on both sides of both joints.", ""),
     key("bearing.bore.crush_relief.depth", Quantity(Dimension::Length, Range::above(0.0, 1.0, "mm")), Required, PHYSICAL, "Radial depth at the joint.", "\"10 um\" to \"40 um\""),
-    key("bearing.bore.crush_relief.length", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Length around from the joint to where the relief ends.", "\"4 mm\" to \"10 mm\""),
+    key("bearing.bore.crush_relief.length", Quantity(Dimension::Length, RELIEF), Required, PHYSICAL, "Length around from the joint to where the relief ends.", "\"4 mm\" to \"10 mm\""),
     key("bearing.bore.harmonic", TableList, Optional, PHYSICAL, "A wave around, amplitude cos(order (angle - phase)), of the radius; write [[bearing.bore.harmonic]] for each.", ""),
     key("bearing.bore.harmonic.order", Integer(1, 500), Required, PHYSICAL, "Waves around.", "2"),
     key("bearing.bore.harmonic.amplitude", Quantity(Dimension::Length, Range::between(-1.0, 1.0, "mm")), Required, PHYSICAL, "Amplitude, half of peak to valley.", "\"1 um\""),
@@ -125,7 +138,7 @@ pub const KEYS: &[Key] = &[
         "Parabola along the axis: by how much the gap is wider at both ends than in the mid-plane; negative for a hollow surface.", "\"2 um\" to \"10 um\""),
     key("bearing.journal.relief", Table, Optional, PHYSICAL, "Relief at the ends: the gap widens over a length.", ""),
     key("bearing.journal.relief.depth", Quantity(Dimension::Length, Range::above(0.0, 1.0, "mm")), Required, PHYSICAL, "Radial depth at the end.", "\"2 um\" to \"20 um\""),
-    key("bearing.journal.relief.length", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Length along the axis from the end.", "\"2 mm\""),
+    key("bearing.journal.relief.length", Quantity(Dimension::Length, RELIEF), Required, PHYSICAL, "Length along the axis from the end.", "\"2 mm\""),
     key("bearing.journal.relief.form", Choice(&["linear", "circular"], &[]), Default("linear"), PHYSICAL, "linear: a cone; circular: an arc that leaves the cylinder without a bend.", "\"linear\""),
     key("bearing.journal.relief.ends", Choice(&["both", "front", "rear"], &[]), Default("both"), PHYSICAL, "front: the end at -width/2; rear: the end at +width/2.", "\"both\""),
     key("bearing.journal.harmonic", TableList, Optional, PHYSICAL, "A wave around, amplitude cos(order (angle - phase)), of the radius; write [[bearing.journal.harmonic]] for each.", ""),
@@ -176,17 +189,17 @@ pub const KEYS: &[Key] = &[
     key("operation", Table, Required, &[Film, Dimensionless, Equilibrium, Coefficients], "How the bearing runs.", ""),
     key("operation.speed", Quantity(Dimension::AngularSpeed, SPEED), Required, OPERATED, "Angular speed of the journal, relative to the frame of the loads.", "\"2000 rpm\""),
     key("operation.shell_speed", Quantity(Dimension::AngularSpeed, SPEED), Default("0 rpm"), OPERATED, "Angular speed of the shell, relative to the frame of the loads.", "\"0 rpm\""),
-    key("operation.load", Pair(Dimension::Force), Required, STEADY, "Load that the machine puts ON the journal, along X and Y.", "[\"10 kN\", \"0 N\"]"),
-    key("operation.moment", Pair(Dimension::Moment), Optional, STEADY, "Moment ON the journal about X and Y; given, the tilt is free and answers it.", "[\"0 N.m\", \"0 N.m\"]"),
+    key("operation.load", Pair(Dimension::Force, FORCE), Required, STEADY, "Load that the machine puts ON the journal, along X and Y.", "[\"10 kN\", \"0 N\"]"),
+    key("operation.moment", Pair(Dimension::Moment, MOMENT), Optional, STEADY, "Moment ON the journal about X and Y; given, the tilt is free and answers it.", "[\"0 N.m\", \"0 N.m\"]"),
     key("operation.rotor_mass", Quantity(Dimension::Mass, Range::above(0.0, 1e6, "kg")), Optional, TURNING, "Mass of the rigid rotor that one bearing carries: is it stable, and how far from whirling?", "\"50 kg\""),
     key("operation.speeds", List(Dimension::AngularSpeed, Range::above(0.0, 1e6, "rpm")), Optional, TURNING,
         "Ascending journal speeds of the stability chart, at this load, oil and clearance; with rotor_mass, the speed where the rotor begins to whirl is found between them.", "[\"1000 rpm\", \"2000 rpm\", \"4000 rpm\"]"),
-    key("operation.relative_eccentricity", Number(Range::between(0.0, f64::INFINITY, "")), Required, ANY_FILM, "Distance of the centres over the radial clearance.", "0.5 to 0.99"),
+    key("operation.relative_eccentricity", Number(Range::between(0.0, 1000.0, "")), Required, ANY_FILM, "Distance of the centres over the radial clearance.", "0.5 to 0.99"),
     key("operation.line_of_centres_angle", Quantity(Dimension::Angle, Range::ANY), Default("0 deg"), ONE_FILM, "Angle from +X to the narrowest gap.", "\"30 deg\""),
     key("operation.relative_eccentricity_rate", Quantity(Dimension::Rate, Range::ANY), Default("0 1/s"), ONE_FILM, "How fast the relative eccentricity grows.", "\"20 1/s\""),
     key("operation.line_of_centres_rate", Quantity(Dimension::AngularSpeed, Range::ANY), Default("0 rad/s"), ONE_FILM, "How fast the line of centres turns.", "\"100 rad/s\""),
-    key("operation.tilt", Pair(Dimension::Angle), Optional, OPERATED, "Rotation of the journal axis against the shell axis about X and Y, held fixed.", "[\"0 rad\", \"0.1 mrad\"]"),
-    key("operation.tilt_rate", Pair(Dimension::AngularSpeed), Optional, ONE_FILM, "Rate of the tilt.", "[\"0 rad/s\", \"0 rad/s\"]"),
+    key("operation.tilt", Pair(Dimension::Angle, TILT), Optional, OPERATED, "Rotation of the journal axis against the shell axis about X and Y, held fixed.", "[\"0 rad\", \"0.1 mrad\"]"),
+    key("operation.tilt_rate", Pair(Dimension::AngularSpeed, Range::between(-1e6, 1e6, "rad/s")), Optional, ONE_FILM, "Rate of the tilt.", "[\"0 rad/s\", \"0 rad/s\"]"),
     key("operation.dimensionless", Flag, Default("false"), ANY_FILM, "Solve the dimensionless film problem, without [bearing] and [oil].", "true"),
     key("operation.d_over_b", Number(Range::above(0.0, 100.0, "")), Required, SCALED, "Diameter over width.", "1 to 4"),
     key("operation.tilt_gamma", Number(Range::ANY), Default("0"), SCALED, "Relative tilt in the plane of the narrowest gap: H = 1 + eps cos(phi) - gamma (1-eps) Z cos(phi) - delta Z sin(phi).", "0 to 1"),
@@ -202,7 +215,7 @@ pub const KEYS: &[Key] = &[
     key("load_cycle.journal_mass", Quantity(Dimension::Mass, Range::between(0.0, 1e6, "kg")), Default("0 kg"), CYCLE, "Mass that moves with the journal centre.", "\"0 kg\""),
     key("load_cycle.crank_step", Quantity(Dimension::Angle, Range::between(0.001, 30.0, "deg")), Default("1 deg"), CYCLE, "Crank angle between two rows of the results; divides the period.", "\"1 deg\""),
     key("load_cycle.maximum_cycles", Integer(1, 1000), Default("8"), CYCLE, "Cycles after which an orbit that has not closed is given up.", "8"),
-    key("load_cycle.coefficients_at", List(Dimension::Angle, Range::ANY), Optional, CYCLE,
+    key("load_cycle.coefficients_at", List(Dimension::Angle, Range::between(-36_000.0, 36_000.0, "deg")), Optional, CYCLE,
         "Crank angles at which stiffness and damping are taken, each at the nearest row of the results.", "[\"10 deg\", \"370 deg\"]"),
     key("load_cycle.closure_tolerance", Number(Range::above(0.0, 0.1, "")), Default("1e-4"), CYCLE,
         "The orbit is closed when two cycles differ by less, over the radial clearance.", "1e-4"),

@@ -8,6 +8,7 @@
 
 use super::csv_table::{self, CsvTable, Layout, read_table};
 use super::error::InputError;
+use super::keys::{FORCE, MOMENT};
 use super::units::Dimension;
 use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 
@@ -110,7 +111,7 @@ pub fn read_load_table(
     settings: &CycleSettings,
 ) -> Result<LoadTable, Vec<InputError>> {
     let (table, warnings) = read_cycle(file, text, &LAYOUT, settings.period, &LOAD_WORDS)?;
-    if let Some(error) = moments_and_tilts(&table) {
+    if let Some(error) = moments_and_tilts(&table).or_else(|| beyond_machines(&table)) {
         return Err(vec![error]);
     }
     Ok(LoadTable {
@@ -181,6 +182,29 @@ fn moments_and_tilts(table: &Table<'_>) -> Option<InputError> {
                 "take one pair of columns out; the moment that holds a prescribed tilt is a result",
             )
     })
+}
+
+/// A load or moment that no machine makes, as the keys of a steady study refuse it.
+fn beyond_machines(table: &Table<'_>) -> Option<InputError> {
+    for (index, (name, dimension)) in COLUMNS.iter().enumerate() {
+        let range = match dimension {
+            Dimension::Force => FORCE,
+            Dimension::Moment => MOMENT,
+            _ => continue,
+        };
+        let beyond = |row: &&csv_table::Row<'_, { COLUMNS.len() }>| {
+            !range.contains(row.values[index], Some(*dimension))
+        };
+        if let Some(row) = table.rows.iter().find(beyond) {
+            let error = table.error_at(row, index, format!("`{name}` is out of range"));
+            return Some(
+                error
+                    .allowing(range.to_string())
+                    .hinting("the unit stands in the header of the column: is it right?"),
+            );
+        }
+    }
+    None
 }
 
 /// A number as it is shown in messages: nine digits, no round-off tails.

@@ -79,7 +79,7 @@ pub enum Kind {
     /// A quantity, or a table that gives a law instead.
     QuantityOrLaw(Dimension, Range),
     /// Two quantities, along X and Y.
-    Pair(Dimension),
+    Pair(Dimension, Range),
     /// One quantity or more.
     List(Dimension, Range),
     /// Cells around and along the axis.

@@ -143,7 +143,9 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
             Kind::Quantity(dimension, _) | Kind::QuantityOrLaw(dimension, _),
             DeValue::Integer(_) | DeValue::Float(_),
         ) => Err(bare_quantity(value, dimension)),
-        (Kind::Pair(dimension), DeValue::Array(list)) => pair(list, dimension).map(Value::Pair),
+        (Kind::Pair(dimension, range), DeValue::Array(list)) => {
+            pair(list, dimension, range).map(Value::Pair)
+        }
         (Kind::List(dimension, range), DeValue::Array(list)) => {
             quantities(list, dimension, range).map(Value::List)
         }
@@ -181,7 +183,7 @@ fn expected(kind: &Kind) -> String {
         Kind::Quantity(dimension, _) | Kind::QuantityOrLaw(dimension, _) => {
             format!("a {} in quotes with its unit", dimension.name())
         }
-        Kind::Pair(dimension) => {
+        Kind::Pair(dimension, _) => {
             let unit = dimension.units().first().copied().unwrap_or_default();
             format!("two quantities, [\"1 {unit}\", \"0 {unit}\"]")
         }
@@ -307,22 +309,26 @@ fn bare_quantity(value: &DeValue<'_>, dimension: Dimension) -> Refusal {
     quantity_refusal(&QuantityError::MissingUnit, number, dimension)
 }
 
-fn pair(list: &[Spanned<DeValue<'_>>], dimension: Dimension) -> Result<[f64; 2], Refusal> {
+fn pair(
+    list: &[Spanned<DeValue<'_>>],
+    dimension: Dimension,
+    range: Range,
+) -> Result<[f64; 2], Refusal> {
     let [x, y] = list else {
         return Err(Refusal::new(format!(
             "must be {}",
-            expected(&Kind::Pair(dimension))
+            expected(&Kind::Pair(dimension, range))
         )));
     };
     let read = |value: &Spanned<DeValue<'_>>| {
         let read = match value.get_ref() {
-            DeValue::String(text) => quantity(text, dimension, Range::ANY),
+            DeValue::String(text) => quantity(text, dimension, range),
             other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
                 Err(bare_quantity(other, dimension))
             }
             _ => Err(Refusal::new(format!(
                 "must be {}",
-                expected(&Kind::Pair(dimension))
+                expected(&Kind::Pair(dimension, range))
             ))),
         };
         read.map_err(|refusal| Refusal {
@@ -351,12 +357,18 @@ fn quantities(
         .allowing(format!("1 to {LONGEST_LIST} values")));
     }
     list.iter()
-        .map(|value| match value.get_ref() {
-            DeValue::String(text) => quantity(text, dimension, range),
-            other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
-                Err(bare_quantity(other, dimension))
-            }
-            _ => Err(Refusal::new(format!("must be {}", wanted()))),
+        .map(|value| {
+            let read = match value.get_ref() {
+                DeValue::String(text) => quantity(text, dimension, range),
+                other @ (DeValue::Integer(_) | DeValue::Float(_)) => {
+                    Err(bare_quantity(other, dimension))
+                }
+                _ => Err(Refusal::new(format!("must be {}", wanted()))),
+            };
+            read.map_err(|refusal| Refusal {
+                part: Some(value.span()),
+                ..refusal
+            })
         })
         .collect()
 }

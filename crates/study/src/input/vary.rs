@@ -165,8 +165,8 @@ impl Reading<'_> {
                     ));
                 }
                 (Some(Kind::TableList), Some(_)) | (_, None) => {}
-                (Some(Kind::Pair(_) | Kind::Grid), Some(0 | 1)) if is_last => {}
-                (Some(Kind::Pair(_) | Kind::Grid), Some(_)) if is_last => {
+                (Some(Kind::Pair(..) | Kind::Grid), Some(0 | 1)) if is_last => {}
+                (Some(Kind::Pair(..) | Kind::Grid), Some(_)) if is_last => {
                     return Err(Box::new(
                         refuse(format!("`{part}` has two elements")).allowing("[0] and [1]"),
                     ));
@@ -374,7 +374,7 @@ fn is_section(path: &str, table: &DeTable<'_>) -> bool {
 fn dimension_of(key: &Key, is_element: bool) -> Option<Dimension> {
     match key.kind {
         Kind::Quantity(dimension, _) | Kind::QuantityOrLaw(dimension, _) => Some(dimension),
-        Kind::Pair(dimension) if is_element => Some(dimension),
+        Kind::Pair(dimension, _) if is_element => Some(dimension),
         _ => None,
     }
 }

@@ -22,6 +22,13 @@ impl ResultWriter for CycleTable {
         "load cycle: orbit, load, film, flows and power per crank angle"
     }
 
+    fn is_own_table(&self, first_line: &str) -> bool {
+        begins_with(
+            first_line,
+            CYCLE_COLUMNS.iter().take(9).map(|(name, _)| *name),
+        )
+    }
+
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
         match &results.body {
             Body::LoadCycle(cycle) => cycle_table(cycle).map(Some),
@@ -41,6 +48,10 @@ impl ResultWriter for FieldTable {
 
     fn describe(&self) -> &'static str {
         "film pressure, film fraction and film thickness per cell"
+    }
+
+    fn is_own_table(&self, first_line: &str) -> bool {
+        begins_with(first_line, FIELD_COLUMNS)
     }
 
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
@@ -64,6 +75,14 @@ impl ResultWriter for CaseTable {
 
     fn describe(&self) -> &'static str {
         "sweep: varied values, status, key numbers and limits per case"
+    }
+
+    /// Between the number of the case and the status stand the keys that the sweep varies.
+    fn is_own_table(&self, first_line: &str) -> bool {
+        let mut cells = first_line.split(',');
+        cells.next() == Some("case")
+            && cells.any(|cell| cell == "status")
+            && cells.next_back() == Some("message")
     }
 
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
@@ -187,19 +206,22 @@ pub fn cycle_table(cycle: &CycleResults) -> Result<Vec<u8>, OutputError> {
     table.finish()
 }
 
+/// The columns of the fields.
+const FIELD_COLUMNS: [&str; 5] = [
+    "angle[deg]",
+    "axial[mm]",
+    "pressure[Pa]",
+    "film_fraction[-]",
+    "film_thickness[m]",
+];
+
 /// The fields as CSV, one row per cell.
 ///
 /// # Errors
 /// [`OutputError::Content`].
 pub fn field_table(field: &FieldSnapshot) -> Result<Vec<u8>, OutputError> {
     let mut table = Table::new(FieldTable.file_name());
-    table.row([
-        "angle[deg]",
-        "axial[mm]",
-        "pressure[Pa]",
-        "film_fraction[-]",
-        "film_thickness[m]",
-    ])?;
+    table.row(FIELD_COLUMNS)?;
     let places = field
         .angles
         .iter()
@@ -252,6 +274,12 @@ pub fn case_table(sweep: &SweepResults) -> Result<Vec<u8>, OutputError> {
         table.row(first.chain(limits).chain([row.message.clone()]))?;
     }
     table.finish()
+}
+
+/// Whether the cells of a header begin with these names.
+pub(super) fn begins_with<'n>(header: &str, names: impl IntoIterator<Item = &'n str>) -> bool {
+    let mut cells = header.split(',');
+    names.into_iter().all(|name| cells.next() == Some(name))
 }
 
 /// The shortest text that reads back as the same number.

@@ -3,8 +3,11 @@
 //! Results of an earlier run are replaced, whichever study they came from: files that this run does
 //! not write are removed, so that no table of another run stays beside the new summary. A file that
 //! no run has written is never touched.
+//!
+//! A run that was killed between its first table and its summary leaves no summary: its tables are
+//! known by their header.
 
-use super::{OutputError, WRITERS};
+use super::{OutputError, ResultWriter, WRITERS};
 use crate::results::PROGRAM;
 use std::fs;
 use std::io::Read;
@@ -20,8 +23,9 @@ const SUMMARY: &str = "summary.json";
 /// [`OutputError::Taken`].
 pub fn check_directory(directory: &Path, inputs: &[PathBuf]) -> Result<(), OutputError> {
     let taken = |path: PathBuf, reason| Err(OutputError::Taken { path, reason });
-    let has_results = holds_results(directory);
-    for name in WRITERS.iter().map(|writer| writer.file_name()) {
+    let has_summary = holds_summary(directory);
+    for writer in WRITERS {
+        let name = writer.file_name();
         let path = directory.join(name);
         let Ok(real) = fs::canonicalize(&path) else {
             continue;
@@ -33,22 +37,51 @@ pub fn check_directory(directory: &Path, inputs: &[PathBuf]) -> Result<(), Outpu
             return taken(path, "it is an input of this study");
         }
         let is_table = path.extension().is_some_and(|kind| kind == "csv");
-        if !has_results && (is_table || name == SUMMARY) {
+        let is_foreign = match is_table {
+            true => !is_own_table(*writer, &path),
+            false => name == SUMMARY,
+        };
+        if !has_summary && is_foreign {
             return taken(path, "it is not the result of a run");
         }
     }
     Ok(())
 }
 
-/// The directory holds results of this program.
+/// The directory holds results of this program: its summary or, of a run that was killed before it
+/// wrote one, a table.
 pub(super) fn holds_results(directory: &Path) -> bool {
-    /// The name of the program stands among the first keys of a summary.
-    const HEAD: u64 = 4096;
-    let mut head = Vec::new();
-    let read = fs::File::open(directory.join(SUMMARY))
-        .and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    let has_table = || {
+        let mut writers = WRITERS.iter();
+        writers.any(|writer| is_own_table(*writer, &directory.join(writer.file_name())))
+    };
+    holds_summary(directory) || has_table()
+}
+
+fn holds_summary(directory: &Path) -> bool {
+    // The name of the program stands among the first keys of a summary.
     let named = format!("\"program\": \"{PROGRAM}\"");
-    read.is_ok() && String::from_utf8_lossy(&head).contains(&named)
+    head(&directory.join(SUMMARY)).contains(&named)
+}
+
+/// The file begins with the header of a table that this writer writes.
+fn is_own_table(writer: &dyn ResultWriter, path: &Path) -> bool {
+    let head = head(path);
+    head.lines()
+        .next()
+        .is_some_and(|line| writer.is_own_table(line))
+}
+
+/// The first few thousand bytes of a file as text; empty for what cannot be read.
+fn head(path: &Path) -> String {
+    /// Longer than any header and than the first keys of a summary.
+    const HEAD: u64 = 16_384;
+    let mut head = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    match read {
+        Ok(_) => String::from_utf8_lossy(&head).into_owned(),
+        Err(_) => String::new(),
+    }
 }
 
 #[cfg(test)]
@@ -76,5 +109,46 @@ mod tests {
         assert!(error.contains("an input of this study"), "{error}");
         fs::write(&summary, "{\"program\": \"another\"}").unwrap();
         assert!(check(&[]).is_err());
+    }
+
+    /// A run that is killed writes no summary: it is taken up where its tables are known, and they
+    /// go where the next run has none of their kind.
+    #[test]
+    fn tables_of_a_killed_run_are_known_by_their_header() {
+        let directory = tempfile::tempdir().unwrap();
+        let check = || check_directory(directory.path(), &[]);
+        let own = [
+            (
+                "cycle.csv",
+                "crank_angle[deg],eccentricity_x[-],eccentricity_y[-],load_x[N],load_y[N],\
+                 minimum_film_thickness[m],peak_film_pressure[Pa],power_loss[W],side_flow[m3/s],new\n0\n",
+            ),
+            (
+                "film.csv",
+                "angle[deg],axial[mm],pressure[Pa],film_fraction[-],film_thickness[m]\n",
+            ),
+            (
+                "cases.csv",
+                "case,bearing.width[mm],status,power_loss[W],message\n",
+            ),
+        ];
+        for (name, header) in own {
+            let path = directory.path().join(name);
+            fs::write(&path, header).unwrap();
+            assert!(check().is_ok(), "{name}");
+            assert!(holds_results(directory.path()), "{name}");
+            // A comment, another order or a column less: written by somebody else.
+            for foreign in [
+                format!("# mine\n{header}"),
+                header.replacen(',', ";", 1),
+                header.split(',').next().unwrap().to_owned(),
+                String::new(),
+            ] {
+                fs::write(&path, &foreign).unwrap();
+                assert!(check().is_err(), "{foreign}");
+                assert!(!holds_results(directory.path()), "{foreign}");
+            }
+            fs::remove_file(&path).unwrap();
+        }
     }
 }

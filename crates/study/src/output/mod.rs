@@ -44,6 +44,12 @@ pub trait ResultWriter: Sync {
     /// What the file holds, in one line, for help texts.
     fn describe(&self) -> &'static str;
 
+    /// Whether a file that begins with this line is a table of this format, so that a run may
+    /// replace it.
+    fn is_own_table(&self, _first_line: &str) -> bool {
+        false
+    }
+
     /// The content of the file; `None` if these results have nothing for this format.
     ///
     /// # Errors

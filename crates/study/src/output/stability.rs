@@ -1,6 +1,6 @@
 //! `stability.csv`: a rigid rotor over speed, one row per speed.
 
-use super::csv::{Table, number};
+use super::csv::{Table, begins_with, number};
 use super::{OutputError, ResultWriter};
 use crate::results::{Body, Results, SteadyResults, degrees, rpm, status_name};
 use sommerfeld_bearing::{SpeedPoint, StabilityChart};
@@ -17,6 +17,10 @@ impl ResultWriter for StabilityTable {
 
     fn describe(&self) -> &'static str {
         "stability chart: equilibrium, stiffness, damping and whirl threshold per speed"
+    }
+
+    fn is_own_table(&self, first_line: &str) -> bool {
+        begins_with(first_line, COLUMNS)
     }
 
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {

@@ -346,7 +346,8 @@ impl Desk<'_> {
     fn told(&self, record: &CaseRecord) -> String {
         let inputs = self.plan.describe(record.number - 1);
         let (number, status) = (record.number, record.status.name());
-        format!("case {number} ({inputs}): {status}: {}", record.message)
+        let told = ended(status, &record.message);
+        format!("case {number} ({inputs}): {told}")
     }
 
     fn show(&self, message: Option<String>, progress: &mut ProgressCallback<'_>) {
@@ -485,6 +486,16 @@ fn header(study: &Study, plan: &SweepPlan, models: Vec<Model>, sweep: &SweepResu
     }
 }
 
+/// How a case ended and why. Most messages begin with the status themselves.
+fn ended(status: &str, message: &str) -> String {
+    let words = status.replace('-', " ");
+    if message.starts_with(&words) {
+        message.to_owned()
+    } else {
+        format!("{status}: {message}")
+    }
+}
+
 /// What the reader must know: cases that are missing, cases that did not converge.
 fn messages(sweep: &SweepResults) -> Vec<String> {
     let total = sweep.cases.len();
@@ -502,12 +513,8 @@ fn messages(sweep: &SweepResults) -> Vec<String> {
         .filter(|row| !matches!(row.status, CaseStatus::Converged | CaseStatus::NotRun));
     let told: Vec<String> = bad
         .map(|row| {
-            format!(
-                "{}: {}: {}",
-                sweep.describe(row),
-                row.status.name(),
-                row.message
-            )
+            let told = ended(row.status.name(), &row.message);
+            format!("{}: {told}", sweep.describe(row))
         })
         .collect();
     let more = told.len().saturating_sub(NAMED);

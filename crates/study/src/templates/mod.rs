@@ -36,6 +36,21 @@ pub const TEMPLATES: &[Template] = &[
         files: &[],
     },
     Template {
+        name: "lemon-bearing",
+        meaning: "stability of a rotor in a lemon bearing over its speed",
+        study: include_str!("lemon-bearing.toml"),
+        files: &[],
+    },
+    Template {
+        name: "clearance-sweep",
+        meaning: "sweep of a steady main bearing over clearance and speed",
+        study: include_str!("clearance-sweep.toml"),
+        files: &[(
+            "clearance-sweep-base.toml",
+            include_str!("main-bearing.toml"),
+        )],
+    },
+    Template {
         name: "one-axis-cycle",
         meaning: "journal orbit under a load along one axis, short-bearing film",
         study: include_str!("one-axis-cycle.toml"),

@@ -37,6 +37,7 @@ impl Checker<'_> {
             match groove.feed() {
                 Ok((feed, supply)) => {
                     warnings.extend(groove.turning(&feed));
+                    errors.extend(groove.clash(&feed, &feeds));
                     if let Supply::Table { table, from } = supply {
                         cycles.push(PressureCycle {
                             feed: feeds.len(),
@@ -395,6 +396,29 @@ impl GrooveCheck<'_, '_> {
         Some(error.allowing(allowed))
     }
 
+    /// Grooves that open into one another hold one pressure: two that their supply holds at
+    /// different ones cannot be.
+    fn clash(&self, feed: &Feed, others: &[Feed]) -> Option<InputError> {
+        let clashing = |other: &Feed| {
+            let are_held = feed.line == FeedLine::Direct && other.line == FeedLine::Direct;
+            are_held
+                && feed.carried_by == other.carried_by
+                && feed.pressure != other.pressure
+                && overlap(feed, other, self.bearing.radius())
+        };
+        let at = others.iter().position(clashing)?;
+        let message = format!(
+            "the groove opens into groove {} of the file, at {} bar, and this one is at {} bar",
+            at + 1,
+            round(others[at].pressure * 1e-5),
+            round(feed.pressure * 1e-5)
+        );
+        let error = self.error(PRESSURE, message);
+        Some(error.hinting(
+            "give both the same pressure, move one, or give their lines a line_resistance",
+        ))
+    }
+
     /// A steady film under a hole that turns is that of one instant.
     fn turning(&self, feed: &Feed) -> Option<InputError> {
         let is_turning = feed.carried_by == Carrier::Journal
@@ -407,6 +431,29 @@ impl GrooveCheck<'_, '_> {
             self.error("bearing.groove.carried_by", message)
                 .hinting("analysis = \"load-cycle\" follows it around")
         })
+    }
+}
+
+/// Whether two feeds of one carrier share some of its surface of this radius, m.
+fn overlap(a: &Feed, b: &Feed, radius: f64) -> bool {
+    // A rectangle with half sides [around, axial] and round corners: a hole is all corner.
+    let core = |feed: &Feed| match feed.shape {
+        FeedShape::Hole { diameter } => ([0.0, 0.0], 0.5 * diameter),
+        FeedShape::Rectangle { length, width } => ([0.5 * length, 0.5 * width], 0.0),
+        FeedShape::Circumferential { width } => ([PI * radius, 0.5 * width], 0.0),
+    };
+    let ((sides_a, round_a), (sides_b, round_b)) = (core(a), core(b));
+    let turn = (a.angle - b.angle).rem_euclid(2.0 * PI);
+    let apart = [
+        radius * turn.min(2.0 * PI - turn) - sides_a[0] - sides_b[0],
+        (a.position - b.position).abs() - sides_a[1] - sides_b[1],
+    ];
+    let between = apart[0].max(0.0).hypot(apart[1].max(0.0));
+    // Edges that touch share nothing, whatever round-off makes of them.
+    let slack = 1e-9 * radius;
+    match round_a + round_b {
+        0.0 => apart[0].max(apart[1]) < -slack,
+        corners => between < corners - slack,
     }
 }
 
