@@ -34,7 +34,7 @@ fn a_reader_that_closes_the_output_is_no_failure() {
         template.study.replace("[film]", "[film]\ngrid = [32, 8]"),
     )
     .unwrap();
-    let mut child = common::sommerfeld()
+    let mut child = sommerfeld()
         .arg("run")
         .arg(&file)
         .stdout(std::process::Stdio::piped())
