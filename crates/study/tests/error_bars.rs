@@ -494,11 +494,13 @@ const CLOSED_FORM_CYCLE: &str = "schema = 1\nanalysis = \"load-cycle\"\n[bearing
     model = \"short-bearing\"\ncavitation = \"gumbel\"\n[load_cycle]\nfile = \"error-bars-loads.csv\"\n\
     engine_speed = \"2000 rpm\"\nperiod = \"360 deg\"\ncrank_step = \"4 deg\"\n";
 
+/// Once for all tests: one may read while another writes.
 fn write_loads() {
+    static WRITTEN: std::sync::Once = std::sync::Once::new();
     let loads = "crank_angle[deg],load_x[N],load_y[N]\n0,4000,0\n90,2000,2000\n180,1000,0\n\
                  270,2000,-2000\n360,4000,0\n";
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("error-bars-loads.csv");
-    std::fs::write(file, loads).unwrap();
+    WRITTEN.call_once(|| std::fs::write(file, loads).unwrap());
 }
 
 /// A closed form has no grid: its cycle has the error of the time step alone, and that covers.
