@@ -288,6 +288,9 @@ pub(crate) fn feed_words(feed: &Feed) -> String {
         Carrier::Shell => "shell",
         Carrier::Journal => "journal",
     };
+    if matches!(feed.shape, FeedShape::Circumferential { .. }) {
+        return format!("{shape} in the {carrier}");
+    }
     let at = format::angle(degrees_around(feed.angle));
     format!("{shape} in the {carrier} at {at}")
 }

@@ -23,7 +23,7 @@
   report.axis = (title, extra) => Object.assign({
     title: { text: title, standoff: 8 }, gridcolor: theme.line, zerolinecolor: theme.line,
     linecolor: theme.faint, tickcolor: theme.faint, ticks: "outside", ticklen: 4, showline: true,
-    automargin: true, separatethousands: false, exponentformat: "power",
+    automargin: true, separatethousands: false, exponentformat: "power", minexponent: 6,
   }, extra);
 
   report.layout = (xaxis, yaxis, extra) => Object.assign({

@@ -111,9 +111,17 @@
         x1: onset.speed, line: { color: theme.second, width: 1.2, dash: "dot" } }));
       const labels = stability.onsets.map((onset) => ({ yref: "paper", y: 1, yanchor: "top", x: onset.speed,
         xanchor: "left", text: onset.label, showarrow: false, font: { color: theme.second } }));
-      return curves([line(stability.speed, stability.mass, "threshold mass", 0, { mode: "lines+markers" })],
+      const figure = curves([line(stability.speed, stability.mass, "threshold mass", 0, { mode: "lines+markers" })],
         "Threshold mass [kg]", axis("Journal speed [rpm]"),
         { shapes: [...rotor.shapes, ...onsets], annotations: [...rotor.annotations, ...labels] });
+      // The threshold falls by decades over speed; on an even scale it would meet the rotor unseen.
+      const masses = [...stability.mass, stability.rotor].filter((mass) => mass > 0);
+      if (Math.max(...masses) > 20 * Math.min(...masses)) {
+        Object.assign(figure.layout.yaxis, { type: "log", dtick: "D2", minexponent: 9 });
+        // Annotations, unlike shapes, give the logarithm on such an axis.
+        for (const label of rotor.annotations) { label.y = Math.log10(label.y); }
+      }
+      return figure;
     };
   }
   if (middle) {

@@ -50,13 +50,26 @@
   // Height of the highest pressure above the rings, in bearing radii.
   const exaggeration = 0.75;
 
+  // A finer body looks no different and takes longer to draw: every n-th place around, and along
+  // the axis every n-th and the last.
+  const every = (count, most) => {
+    const stride = Math.ceil(count / most);
+    return Array.from({ length: Math.ceil(count / stride) }, (_, i) => i * stride);
+  };
+  const isCycle = film.frames.length > 1;
+  const columns = every(around, isCycle ? 96 : 360);
+  const lines = [...new Set([...every(along, isCycle ? 16 : 96), along - 1])];
+  const bodyOf = (name) => { const all = rowsOf(name); return lines.map((j) => columns.map((i) => all[j][i])); };
+  const bodyAngle = columns.map((i) => film.angle[i]);
+  const bodyAxial = lines.map((j) => film.axial[j]);
+
   const closed = (row) => [...row, row[0]];
-  const turns = closed(film.angle).map((angle, i) => (angle + (i === around ? 360 : 0)) * Math.PI / 180);
+  const turns = closed(bodyAngle).map((angle, i) => (angle + (i === columns.length ? 360 : 0)) * Math.PI / 180);
 
   function surface(x, y, z, colour) {
     const field = fields[colour];
     const [cmin, cmax] = range(colour);
-    return { type: "surface", x, y, z, surfacecolor: rowsOf(colour).map(choice.shape === "bush" ? closed : (row) => row),
+    return { type: "surface", x, y, z, surfacecolor: bodyOf(colour).map(choice.shape === "bush" ? closed : (row) => row),
       colorscale: field.scale, reversescale: field.reversed ?? false, cmin, cmax, hoverinfo: "skip", showlegend: false,
       lighting: { ambient: 0.72, diffuse: 0.55, specular: 0.08, roughness: 0.9, fresnel: 0.05 },
       lightposition: { x: 2000, y: 6000, z: 9000 },
@@ -85,11 +98,11 @@
     const scale = film.radius;
     const top = range("pressure")[1];
     const half = film.half_width / scale;
-    const pressure = rowsOf("pressure").map(closed);
+    const pressure = bodyOf("pressure").map(closed);
     const radius = pressure.map((row) => row.map((value) => 1 + exaggeration * Math.max(0, value ?? 0) / top));
     const x = radius.map((row) => row.map((r, i) => r * Math.cos(turns[i])));
     const y = radius.map((row) => row.map((r, i) => r * Math.sin(turns[i])));
-    const z = radius.map((row, j) => row.map(() => film.axial[j] / scale));
+    const z = radius.map((row, j) => row.map(() => bodyAxial[j] / scale));
     const ring = Array.from({ length: 121 }, (_, i) => i * Math.PI / 60);
     const rings = [-half, half].map((end) => wire(ring.map(Math.cos), ring.map(Math.sin), ring.map(() => end), theme.faint, 3));
     const named = [0, 90, 180, 270];
@@ -120,8 +133,8 @@
       const tall = choice.scale === "cycle" ? Math.max(0, value) / top : 1;
       const r = 1.03 + exaggeration * tall;
       for (const [key, of] of [["x", Math.cos], ["y", Math.sin]]) {
-        box[key][0] = Math.min(box[key][0], r * of(turns[column]));
-        box[key][1] = Math.max(box[key][1], r * of(turns[column]));
+        const place = r * of(film.angle[column] * Math.PI / 180);
+        box[key] = [Math.min(box[key][0], place), Math.max(box[key][1], place)];
       }
     });
     return box;
@@ -137,7 +150,7 @@
   }
 
   function plate() {
-    const pressure = rowsOf("pressure");
+    const pressure = bodyOf("pressure");
     const line3d = (title, extra) => Object.assign(axis(title, { gridcolor: theme.line, backgroundcolor: "rgba(0,0,0,0)", showbackground: false,
       color: theme.soft, titlefont: undefined }), extra);
     const scene = { domain: { x: [0.08, 1], y: [0, 1] }, xaxis: line3d("Bearing angle [°]", report.angleTicks(report.seam, 90)),
@@ -149,8 +162,8 @@
       for (const unknown of ["automargin", "titlefont", "standoff", "ticklen"]) { delete scene[name][unknown]; }
       scene[name].title = { text: scene[name].title.text };
     }
-    const { angles, turn } = report.cut(film.angle, report.seam);
-    const sheet = surface(angles, film.axial, pressure.map(turn), choice.colour);
+    const { angles, turn } = report.cut(bodyAngle, report.seam);
+    const sheet = surface(angles, bodyAxial, pressure.map(turn), choice.colour);
     sheet.surfacecolor = sheet.surfacecolor.map(turn);
     return { traces: [sheet], scene };
   }
@@ -196,12 +209,16 @@
     }
   }
 
-  const pictures = ["film-solid", "film-pressure", "film-fraction"];
-
-  // The page tells which instant its pictures show, once they do.
+  // The maps follow at once. The body takes longer where the machine draws it without a graphics
+  // card, so it waits until nothing newer is asked for; while the film plays it comes along.
+  const rest = 90;
   async function drawPictures() {
     const drawn = shown;
-    await report.draw(pictures);
+    await report.draw(["film-pressure", "film-fraction"]);
+    if (!playing) { await new Promise((done) => { setTimeout(done, rest); }); }
+    if (isStale) { return; }
+    await report.draw(["film-solid"]);
+    // The page tells which instant its pictures show, once they do.
     document.getElementById("film").dataset.shown = drawn;
   }
 

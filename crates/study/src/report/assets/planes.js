@@ -159,9 +159,12 @@
   }
 
   function journalPosition(element) {
-    const box = { x: [-1.3, 1.3], y: [-1.3, 1.3] };
     const vectors = [[position.load, "load", "second"], [position.force, "film force", "third"]].filter(([vector]) => vector);
     const largest = Math.max(...vectors.map(([vector]) => Math.hypot(vector.x, vector.y)), 1e-300);
+    // Room for the heads of the arrows: a label whose place is outside is not drawn at all.
+    const heads = vectors.flatMap(([vector]) => [position.x + 0.42 * vector.x / largest, position.y + 0.42 * vector.y / largest]);
+    const reach = Math.max(1.3, ...heads.map((head) => Math.abs(head) + 0.08));
+    const box = { x: [-reach, reach], y: [-reach, reach] };
     const annotations = vectors.flatMap(([vector, name, color]) => {
       const [dx, dy] = [0.42 * vector.x / largest, 0.42 * vector.y / largest];
       const size = Math.hypot(dx, dy);
