@@ -1,7 +1,7 @@
 //! The report of a sweep: the key figures of all cases over what varies, and a table of the cases.
 
 use super::format::{MICROMETRE, ONE, Unit, Units};
-use super::page::{Card, Cell, Check, Figure, Page, Table};
+use super::page::{Answer, Card, Cell, Check, Figure, Page, Table};
 use crate::cases::{CaseRow, CaseStatus, SweepResults, VariedColumn};
 use crate::limits::{Quantity, Side};
 use serde_json::{Value, json};
@@ -126,10 +126,12 @@ pub(super) fn fill(page: &mut Page, sweep: &SweepResults) -> Value {
     }
     let shown = shown(sweep);
     page.cards = cards(sweep, &shown);
-    let names: Vec<&str> = sweep
-        .varied
-        .iter()
-        .map(|column| column.key.as_str())
+    if !sweep.limits.is_empty() {
+        page.answer = answer(sweep);
+    }
+    // A key of one value is set, not varied: nothing is drawn over it.
+    let names: Vec<&str> = telling(sweep)
+        .map(|(_, column)| column.key.as_str())
         .collect();
     let caption = match (joined(sweep), names.as_slice()) {
         ("second", [first, second]) => format!("Over {first}, one line for each {second}."),
@@ -149,6 +151,38 @@ pub(super) fn fill(page: &mut Page, sweep: &SweepResults) -> Value {
     page.figures.extend(figures);
     page.tables.push(case_table(sweep, &shown));
     data(sweep, &shown)
+}
+
+/// What the limits of the base study say over all cases.
+fn answer(sweep: &SweepResults) -> Answer {
+    let with = |verdict: &str| {
+        let limits = 0..sweep.limits.len();
+        let has = |row: &&CaseRow| {
+            let mut limits = limits.clone();
+            limits.any(|at| SweepResults::limit(row, at).is_some_and(|l| l.verdict == verdict))
+        };
+        sweep.cases.iter().filter(has).count()
+    };
+    let (exceeded, kept) = (with("exceeded"), with("ok"));
+    let total = sweep.cases.len();
+    let (class, headline, explanation) = if exceeded > 0 {
+        let explanation =
+            format!("A limit of the study is exceeded in {exceeded} of {total} cases.");
+        ("bad", "Limit exceeded", explanation)
+    } else if kept == total {
+        let explanation = "Every case keeps every limit of the study.";
+        ("good", "Limits kept", explanation.to_owned())
+    } else {
+        let explanation =
+            format!("No limit exceeded, but only {kept} of {total} cases were judged.");
+        ("bad", "Limits not evaluated", explanation)
+    };
+    Answer {
+        class,
+        headline,
+        explanation,
+        checks: Vec::new(),
+    }
 }
 
 /// The headlines that the cases have, in units that suit their largest numbers.
