@@ -14,6 +14,7 @@ use crate::output::summary;
 use crate::results::{Body, Results, magnitude};
 use serde_json::Value;
 use sommerfeld_bearing::CyclePoint;
+use sommerfeld_film::FilmShear;
 use sommerfeld_film::richardson::{Estimate, Kind, Sample, estimate, vector_errors};
 use std::collections::BTreeMap;
 
@@ -149,7 +150,7 @@ pub fn space_estimates(results: &Results, runs: [GridRun<'_>; 3]) -> BTreeMap<St
             })
         };
         if let [Some(fine), Some(middle), Some(coarse)] = runs.map(value) {
-            let found = estimate(kind(key), [fine, middle, coarse]);
+            let found = estimate(kind(key, results), [fine, middle, coarse]);
             estimates.insert(key.clone(), found);
         }
     }
@@ -159,7 +160,7 @@ pub fn space_estimates(results: &Results, runs: [GridRun<'_>; 3]) -> BTreeMap<St
 /// Extremes are the peak pressure, its crank angle and that of the smallest film; the gap itself is known
 /// in closed form and as smooth as the place of the journal. A share of the film in the bearing counts
 /// cells.
-fn kind(key: &str) -> Kind {
+fn kind(key: &str, results: &Results) -> Kind {
     const EXTREMES: [&str; 5] = [
         "peak_film_pressure_pa",
         "peak_film_pressure_angle_deg",
@@ -167,8 +168,23 @@ fn kind(key: &str) -> Kind {
         "integrals.peak",
         "full_film_share",
     ];
+    const OF_FILM_FRACTION: [&str; 5] = [
+        "friction_torque_journal_n_m",
+        "friction_torque_shell_n_m",
+        "mean_friction_power_w",
+        "power_loss_w",
+        "mean_power_loss_w",
+    ];
+    let bearing = match &results.body {
+        Body::Steady(steady) => Some(&steady.bearing),
+        Body::LoadCycle(cycle) => Some(&cycle.bearing),
+        Body::Dimensionless(_) | Body::Sweep(_) => None,
+    };
+    let shears_by_fraction = bearing.is_some_and(|b| b.film_shear == FilmShear::FilmFraction);
     if EXTREMES.contains(&key) {
         Kind::Extreme
+    } else if shears_by_fraction && OF_FILM_FRACTION.contains(&key) {
+        Kind::Transported
     } else {
         Kind::Integral
     }

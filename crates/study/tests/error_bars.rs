@@ -169,13 +169,12 @@ fn raimondi_boyd() {
     coverage.check("Raimondi and Boyd", 0.95);
 }
 
-/// Rows of Butenschoen's rotation with the target of 1e-3, his digits granted. The bars cover the attitude
-/// in four of five rows. So and Q* are not to be covered: his numbers lie below ours in every row, by up to
-/// 0.5 %, which is no error of a grid of ours, for the independent solver of `raimondi_boyd` has ours.
+/// Rows of Butenschoen's rotation with the target of 1e-3, within his own accuracy: So and Q* to 0.5 %,
+/// the attitude to 0.1 degrees. His numbers cannot judge error bars far narrower than that: they lie
+/// beside those of the independent solver of `raimondi_boyd`, which has ours.
 #[test]
 fn butenschoen_rotation() {
     let text = std::fs::read_to_string(root().join("validation/raimondi-boyd/study.toml")).unwrap();
-    let mut coverage = Coverage::default();
     for row in rows("butenschoen-rotation") {
         let [width_ratio, eps, so, beta, flow] = row[..] else {
             panic!("{row:?}")
@@ -216,18 +215,19 @@ fn butenschoen_rotation() {
             ),
         ];
         let name = format!("B/D {width_ratio} eps {eps}");
-        let [so, beta, flow] = figures;
-        coverage.add(&name, &[beta]);
-        for (figure, [value, error, reference]) in [so, flow] {
+        for (figure, [value, error, reference]) in figures {
             println!("{name} {figure}: {value:.6} +- {error:.1e}, {reference}");
-            let above = value / reference - 1.0;
+            let bar = if figure == "beta" {
+                0.1
+            } else {
+                5e-3 * reference
+            };
             assert!(
-                value > reference - 5e-5 && above < 5e-3,
-                "{name} {figure}: {above}"
+                (value - reference).abs() <= error + bar,
+                "{name} {figure}: {value} {reference}"
             );
         }
     }
-    coverage.check("Butenschoen, rotation, attitude", 0.8);
 }
 
 const GROOVED: &str = "schema = 1\nanalysis = \"equilibrium\"\n[bearing]\ndiameter = \"72 mm\"\n\
@@ -237,8 +237,6 @@ const GROOVED: &str = "schema = 1\nanalysis = \"equilibrium\"\n[bearing]\ndiamet
 
 /// The bearing with a circumferential groove and a mass-conserving film against its independent
 /// solver, the accuracy that it states granted, else its digits: on given grids, and with a target.
-/// There one bar of seven fails, that of the torque: the film fraction comes from the cell upstream, an
-/// error of order 1, while the limit is that of order 2.
 #[test]
 fn grooved_bearing() {
     let file = root().join("validation/grooved-bearing-steady/reference.csv");
@@ -297,7 +295,7 @@ fn grooved_bearing() {
         coverage.add(line, &figures);
     }
     given.check("grooved bearing, --verify", 0.95);
-    to_target.check("grooved bearing, target 3e-3", 0.85);
+    to_target.check("grooved bearing, target 3e-3", 0.95);
 }
 
 /// Butenschoen's side flow in pure squeeze for B/D = 1 from eps 0.6 on is not ours: the deviation is many
