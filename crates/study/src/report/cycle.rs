@@ -3,7 +3,9 @@
 use super::chart::{Chart, Mark, Series};
 use super::film::{self, in_film};
 use super::format::{MICROMETRE, Unit, Units, angle, significant};
-use super::page::{Card, Figure, Page, Section, badge, checks, error, exact, subject};
+use super::page::{
+    Card, Figure, Page, Section, badge, checks, error, exact, outer_circle, subject,
+};
 use super::spark::spark;
 use super::{cycle_tables, figures, surfaces};
 use crate::limits::Quantity;
@@ -264,8 +266,8 @@ fn load_and_orbit(cycle: &CycleResults) -> Section {
                 "orbit",
                 "Journal orbit",
                 format!(
-                    "Path of the journal centre over the radial clearance. On the outer circle \
-                     the surfaces would touch.{failed}"
+                    "Path of the journal centre over the radial clearance. {}{failed}",
+                    outer_circle(&cycle.bearing)
                 ),
             ),
             Figure {

@@ -295,6 +295,15 @@ pub(crate) fn feed_words(feed: &Feed) -> String {
     format!("{shape} in the {carrier} at {at}")
 }
 
+/// What the circle around a journal position is.
+pub(super) fn outer_circle(bearing: &Bearing) -> &'static str {
+    if bearing.is_plain() {
+        "On the outer circle the surfaces would touch."
+    } else {
+        "The outer circle is the radial clearance; these surfaces are no cylinders and touch elsewhere."
+    }
+}
+
 /// The bearing in a line.
 pub(crate) fn subject(bearing: &Bearing) -> String {
     let millimetres = |metres: f64| format::plain_number(metres * 1e3);

@@ -5,7 +5,7 @@ use super::film::{self, Instant, in_film};
 use super::format::{MICROMETRE, MILLIRADIAN, ONE, Unit, Units, angle, significant, size};
 use super::page::{
     Card, Cell, Figure, Page, Section, Table, badge, checks, error, exact, last_iterates,
-    limit_cells, subject,
+    limit_cells, outer_circle, subject,
 };
 use super::{dynamics, figures};
 use crate::limits::Quantity;
@@ -191,8 +191,8 @@ fn figures_of(steady: &SteadyResults) -> Vec<Figure> {
         kind: "position",
         title: "Journal in the clearance circle",
         caption: format!(
-            "Position of the journal centre over the radial clearance, shell frame. On the outer \
-             circle the surfaces would touch. {vectors}"
+            "Position of the journal centre over the radial clearance, shell frame. {} {vectors}",
+            outer_circle(&steady.bearing)
         ),
         size: if steady.field.is_some() { "tall" } else { "" },
     }];
