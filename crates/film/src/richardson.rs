@@ -242,11 +242,15 @@ mod tests {
     }
 
     #[test]
-    fn extremes_are_trusted_less_than_integrals() {
+    fn only_smooth_figures_are_credited_their_limit() {
         let of = |kind| estimate(kind, samples(|h| 5.0 - 0.3 * h * h));
-        let [integral, extreme] = [Kind::Integral, Kind::Extreme].map(of);
-        assert!(extreme.error > 2.0 * integral.error);
-        assert_eq!(extreme.error_of_finest, integral.error_of_finest);
+        let kinds = [Kind::Integral, Kind::Extreme, Kind::Transported];
+        let [integral, extreme, transported] = kinds.map(of);
+        let finest = integral.error_of_finest;
+        assert!(integral.error < 0.25 * finest && extreme.error < 0.25 * finest);
+        assert!(transported.error >= finest * (1.0 - 1e-12));
+        assert_eq!(extreme.error_of_finest, finest);
+        assert_eq!(transported.error_of_finest, finest);
     }
 
     #[test]
