@@ -199,13 +199,27 @@ impl FilmState {
         self.refine();
         self.take_fields(closure);
         if self.lines.has_unknowns() && !closure.cuts_pressures() {
+            self.refine_lines(closure);
+        }
+        self.solution.iter().all(|x| x.is_finite())
+    }
+
+    /// The same on the balances of feeds behind lines.
+    fn refine_lines(&mut self, closure: &dyn CavitationModel) {
+        const LARGEST_RESIDUAL: f64 = 1e-12;
+        const STEPS: usize = 3;
+        let conserves = closure.conserves_mass();
+        for _ in 0..STEPS {
             self.sum_film_flows();
+            let imbalance = self.lines.imbalance(&self.film_flows, conserves);
+            if imbalance <= LARGEST_RESIDUAL * self.flow_scale {
+                return;
+            }
             self.lines
                 .refine(&self.film_flows, &mut self.solution, conserves);
             self.lines.fill(&self.fed_by, conserves, &mut self.set);
             self.take_fields(closure);
         }
-        self.solution.iter().all(|x| x.is_finite())
     }
 
     /// Pressure, film fraction and balance of the solution.
