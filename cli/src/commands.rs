@@ -2,7 +2,7 @@
 
 use crate::exit::Exit;
 use sommerfeld_study::input::{
-    self, BearingCase, Duty, MessageKind, Study, Subject, SweepPlan, render_all,
+    self, BearingCase, Duty, MachinePlan, MessageKind, Study, Subject, SweepPlan, render_all,
 };
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::{self, TEMPLATES};
@@ -61,8 +61,18 @@ fn subject(subject: &Subject) -> String {
             case.d_over_b, case.relative_eccentricity
         ),
         Subject::Bearing(case) => bearing(case),
+        Subject::Machine(plan) => machine(plan),
         Subject::Sweep(plan) => sweep(plan),
     }
+}
+
+/// Its bearings and speeds.
+fn machine(plan: &MachinePlan) -> String {
+    format!(
+        "  bearings  {}\n  speeds    {}\n",
+        plan.bearings.len(),
+        plan.speeds.len()
+    )
 }
 
 /// What varies, with how many cases: every one of them was checked.

@@ -1,6 +1,7 @@
 //! The few figures that answer the question of a study, named and with units, for a terminal.
 
 use crate::cases::CaseStatus;
+use crate::machine::MachineResults;
 use crate::results::{Body, CycleResults, Dynamics, Results, SteadyResults, rpm};
 use sommerfeld_bearing::{CyclePoint, Stability};
 use std::collections::BTreeMap;
@@ -25,6 +26,7 @@ impl Results {
                 (name, format!("{value:.7}{bar}"))
             })
             .to_vec(),
+            Body::Machine(machine) => machine.key_figures(),
             Body::Sweep(sweep) => {
                 let mut figures = vec![("cases", sweep.cases.len().to_string())];
                 let counts = [
@@ -38,6 +40,12 @@ impl Results {
                 figures
             }
         }
+    }
+}
+
+impl MachineResults {
+    fn key_figures(&self) -> Vec<(&'static str, String)> {
+        vec![("speeds", self.speeds.len().to_string())]
     }
 }
 

@@ -93,7 +93,7 @@ impl Results {
                 let fastest = cycle.largest(|point| point.summary.reynolds_number)?;
                 FlowRegime::of(&cycle.bearing, fastest.summary.reynolds_number)
             }
-            Body::Dimensionless(_) | Body::Sweep(_) => None,
+            Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::cases::SweepResults;
 use crate::limits::{Limit, LimitCheck, Quantity, Verdict};
+use crate::machine::MachineResults;
 use crate::models::Model;
 use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
 use sommerfeld_film::{
@@ -73,6 +74,8 @@ pub enum Body {
     LoadCycle(Box<CycleResults>),
     /// The dimensionless problem.
     Dimensionless(DimensionlessResults),
+    /// Every bearing of an engine or shaft.
+    Machine(Box<MachineResults>),
     /// The cases of a sweep.
     Sweep(Box<SweepResults>),
 }
@@ -298,7 +301,7 @@ impl Results {
                     .map(|point| specific_load(&cycle.bearing, point.load)),
                 Quantity::PowerLoss => Some(cycle.mean(|point| point.summary.power_loss())),
             },
-            Body::Dimensionless(_) | Body::Sweep(_) => None,
+            Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
         }
     }
 }

@@ -304,7 +304,7 @@ fn is_finite(study: &Study) -> bool {
         }
         Subject::Bearing(case) => case,
         // Its cases are studies that are checked one by one.
-        Subject::Sweep(_) => return true,
+        Subject::Machine(_) | Subject::Sweep(_) => return true,
     };
     let bearing = &case.bearing;
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;

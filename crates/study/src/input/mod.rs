@@ -11,6 +11,7 @@ mod files;
 mod json_schema;
 mod keys;
 pub mod load_file;
+mod machine;
 mod profile_file;
 mod read;
 pub mod schema;
@@ -25,6 +26,7 @@ pub use explain::{explain, list_keys};
 pub use files::{load_study, study_from_text};
 pub use json_schema::json_schema;
 pub use keys::KEYS;
+pub use machine::{EnginePlan, Machine, MachineBearing, MachinePlan, OrbitPlan};
 pub use study::{
     Analysis, BearingCase, CycleDuty, Duty, FilmModel, FilmSettings, LinearSolver, Rotor,
     SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,

@@ -1,6 +1,7 @@
 //! A checked study: everything a run needs, in SI, with nothing left to doubt.
 
 use super::error::InputError;
+use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
@@ -41,7 +42,7 @@ impl Study {
     pub fn bearing_case(&self) -> Option<&BearingCase> {
         match &self.subject {
             Subject::Bearing(case) => Some(case),
-            Subject::Dimensionless(_) | Subject::Sweep(_) => None,
+            Subject::Dimensionless(_) | Subject::Sweep(_) | Subject::Machine(_) => None,
         }
     }
 }
@@ -57,6 +58,10 @@ pub enum Analysis {
     Coefficients,
     /// The journal orbit over a load cycle.
     LoadCycle,
+    /// Every bearing of an engine.
+    Engine,
+    /// Every bearing of a shaft with given loads.
+    Shaft,
     /// One of these for each of many cases.
     Sweep,
 }
@@ -70,6 +75,8 @@ impl Analysis {
             Self::Equilibrium => "equilibrium",
             Self::Coefficients => "coefficients",
             Self::LoadCycle => "load-cycle",
+            Self::Engine => "engine",
+            Self::Shaft => "shaft",
             Self::Sweep => "sweep",
         }
     }
@@ -82,6 +89,8 @@ pub enum Subject {
     Bearing(Box<BearingCase>),
     /// The dimensionless film problem.
     Dimensionless(DimensionlessFilm),
+    /// An engine or shaft with all its bearings.
+    Machine(Box<MachinePlan>),
     /// Many cases of a base study.
     Sweep(SweepPlan),
 }

@@ -96,7 +96,7 @@ pub fn write(
             file.bearing(&cycle.bearing)?;
             file.cycle(cycle, stored)?;
         }
-        Body::Dimensionless(_) | Body::Sweep(_) => {}
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => {}
     }
     file.file.finish()?.flush()
 }

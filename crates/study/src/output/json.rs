@@ -5,6 +5,7 @@
 use super::{OutputError, ResultWriter};
 use crate::cases::{CaseStatus, SweepResults};
 use crate::limits::LimitCheck;
+use crate::machine::MachineResults;
 use crate::models::Model;
 use crate::oil_holes::{OilHole, oil_holes};
 use crate::results::{
@@ -49,6 +50,7 @@ pub fn summary(results: &Results) -> Value {
         Body::Steady(steady) => steady_keys(steady),
         Body::LoadCycle(cycle) => cycle_keys(cycle),
         Body::Dimensionless(integrals) => dimensionless_keys(integrals),
+        Body::Machine(machine) => machine_keys(machine),
         Body::Sweep(sweep) => sweep_keys(sweep),
     };
     if let Value::Object(body) = body {
@@ -65,6 +67,11 @@ pub fn summary(results: &Results) -> Value {
         object.insert("limits".into(), Value::Array(limits));
     }
     Value::Object(object)
+}
+
+/// Bearings of the first speed, and every speed in a list of its own.
+fn machine_keys(machine: &MachineResults) -> Value {
+    json!({ "load_model": machine.load_model })
 }
 
 fn header(header: &Header) -> Map<String, Value> {

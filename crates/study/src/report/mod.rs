@@ -12,6 +12,7 @@ mod dynamics;
 mod figures;
 mod film;
 mod format;
+mod machine;
 mod packing;
 mod page;
 mod spark;
@@ -54,6 +55,7 @@ pub fn render(results: &Results) -> Result<String, minijinja::Error> {
         Body::Steady(steady) => steady::fill(&mut page, header, steady),
         Body::LoadCycle(cycle) => cycle::fill(&mut page, header, cycle),
         Body::Dimensionless(integrals) => dimensionless::fill(&mut page, header, integrals),
+        Body::Machine(machine) => machine::fill(&mut page, header, machine),
         Body::Sweep(sweep) => sweep::fill(&mut page, sweep),
     };
     let data = script_safe(&data.to_string());

@@ -3,6 +3,7 @@
 mod accuracy;
 mod cycle;
 mod inputs;
+mod machine;
 mod record;
 mod steady;
 mod sweep;
@@ -20,6 +21,7 @@ use crate::sanity;
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use inputs::input_rows;
+use machine::{models_of_machine, solve_machine};
 use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
@@ -215,6 +217,7 @@ fn solve_once(
         Subject::Sweep(plan) => {
             return Ok(solve_sweep(study, plan, RunOptions::default(), progress));
         }
+        Subject::Machine(plan) => solve_machine(plan, &study.film, &mut header, progress)?,
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.duty {
             Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
@@ -265,6 +268,7 @@ fn models_of(study: &Study) -> Vec<Model> {
     match &study.subject {
         // Its cases say what they used.
         Subject::Sweep(_) => used.clear(),
+        Subject::Machine(plan) => used.extend(models_of_machine(plan, &study.film)),
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
         Subject::Bearing(case) => {
             if study.film.model.is_field() {

@@ -1,0 +1,34 @@
+//! The crank train: from the indicator diagram, the dimensions and the masses of an engine to the
+//! load cycle of every bearing.
+//!
+//! # Frames and signs
+//! - **Engine frame**: x up along the bisector of the banks, z along the crankshaft to the flywheel, y
+//!   completes the right-handed frame. The crankshaft turns positively about z, from x to y.
+//! - **Crank angle**: 0 where cylinder 1 fires at its firing top dead centre, counted in the sense of
+//!   rotation; the arm of throw `t` points to the crank angle plus [`Throw::angle`].
+//! - **Rod frame** (big end, small end): x from the big end to the small end, y 90 deg further in the
+//!   sense of rotation.
+//! - Loads are loads ON the journal (crankpin, piston pin, main journal), in the frame of the shell.
+//! - Cylinders, throws and mains are numbered from the free end (pulley), 1 in names, 0 in indices.
+//!
+//! SI throughout; pressures of the gas are absolute.
+
+mod crank_train;
+mod crankshaft;
+mod diagram;
+mod duty;
+mod layout;
+mod motion;
+mod performance;
+mod shaft;
+mod torsion;
+
+pub use crank_train::{CrankTrain, Rod, Unbalance};
+pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
+pub use diagram::{Gas, IndicatorDiagram};
+pub use duty::{BearingDuty, Role};
+pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
+pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
+pub use performance::Performance;
+pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
+pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};

@@ -1,0 +1,5 @@
+//! Elastic bodies: beams, their matrices, and their condensation onto the places where bearings hold
+//! them.
+//!
+//! Degrees of freedom of a node, in this order: displacements x, y, z (m), rotations about x, y, z
+//! (rad), right-handed, small. z is the axis of a shaft and points to its drive end (the flywheel).
