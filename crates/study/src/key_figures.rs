@@ -1,7 +1,7 @@
 //! The few figures that answer the question of a study, named and with units, for a terminal.
 
 use crate::cases::CaseStatus;
-use crate::machine::MachineResults;
+use crate::results::machine::MachineResults;
 use crate::results::{Body, CycleResults, Dynamics, Results, SteadyResults, rpm};
 use sommerfeld_bearing::{CyclePoint, Stability};
 use std::collections::BTreeMap;

@@ -6,7 +6,6 @@ pub mod input;
 mod key_figures;
 pub mod ledger;
 pub mod limits;
-pub mod machine;
 pub mod models;
 pub mod oil_holes;
 pub mod output;

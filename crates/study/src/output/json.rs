@@ -5,9 +5,9 @@
 use super::{OutputError, ResultWriter};
 use crate::cases::{CaseStatus, SweepResults};
 use crate::limits::LimitCheck;
-use crate::machine::MachineResults;
 use crate::models::Model;
 use crate::oil_holes::{OilHole, oil_holes};
+use crate::results::machine::MachineResults;
 use crate::results::{
     Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, PROGRAM,
     Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load, stability_name,

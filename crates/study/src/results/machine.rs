@@ -1,6 +1,6 @@
 //! What a run of an engine or shaft found: every bearing at every speed.
 
-use crate::results::CycleResults;
+use super::CycleResults;
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{Performance, Role, TorsionResponse};
 use sommerfeld_film::Outcome;

@@ -1,9 +1,11 @@
 //! What one run produced: plain owned data, SI, that every output format reads.
 
+pub mod machine;
+
 use crate::cases::SweepResults;
 use crate::limits::{Limit, LimitCheck, Quantity, Verdict};
-use crate::machine::MachineResults;
 use crate::models::Model;
+use machine::MachineResults;
 use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
 use sommerfeld_film::{
     Bearing, Extreme, FeedFlow, FilmField, FilmSummary, JournalState, Outcome, Reaction,
