@@ -3,3 +3,6 @@
 //!
 //! Degrees of freedom of a node, in this order: displacements x, y, z (m), rotations about x, y, z
 //! (rad), right-handed, small. z is the axis of a shaft and points to its drive end (the flywheel).
+mod condensed;
+
+pub use condensed::{CondensedShaft, JOURNAL_FREEDOMS};
