@@ -25,7 +25,7 @@ mod torsion;
 
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
-pub use diagram::{Gas, IndicatorDiagram};
+pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
 pub use duty::{BearingDuty, Role};
 pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
