@@ -1,6 +1,3 @@
-<<<<<<< HEAD
-//! Orders of a periodic quantity that is known at evenly spaced crank angles.
-=======
 //! Which orders a periodic quantity consists of.
 //!
 //! `f(a) = c_0 + sum over k of c_k cos(n_k a) + s_k sin(n_k a)`, `n_k = k / turns`, over the crank
@@ -9,44 +6,10 @@
 //! harmonic stays below `N/2`; what lies beyond is folded onto lower orders, so a table should have at
 //! least twice as many rows as its highest harmonic has.
 //! At `k = N/2`, the last one `N` values can tell, the sine is invisible and the cosine counts once.
->>>>>>> torsion
 
 use crate::Harmonic;
 use std::f64::consts::TAU;
 
-<<<<<<< HEAD
-/// Highest order that is told: what torsional vibration commonly asks for (Ker Wilson, Practical Solution
-/// of Torsional Vibration Problems, 1963, lists engines to order 12).
-const HIGHEST_ORDER: f64 = 12.0;
-
-/// Harmonics of `samples` over `period` (rad of crank angle), from the lowest to order 12 or to what the
-/// samples can tell apart: trigonometric sums, exact for a sum of orders below half the number of samples.
-#[must_use]
-pub fn harmonics(samples: &[f64], period: f64) -> Vec<Harmonic> {
-    let count = samples.len();
-    let turns = period / TAU;
-    let highest = (HIGHEST_ORDER * turns).round().max(0.0) as usize;
-    let circle: Vec<[f64; 2]> = (0..count)
-        .map(|k| {
-            let (sin, cos) = (TAU * k as f64 / count as f64).sin_cos();
-            [cos, sin]
-        })
-        .collect();
-    (1..=highest)
-        .take_while(|harmonic| 2 * harmonic < count)
-        .map(|harmonic| {
-            let (mut cos, mut sin) = (0.0, 0.0);
-            for (k, sample) in samples.iter().enumerate() {
-                let [c, s] = circle[harmonic * k % count];
-                cos += sample * c;
-                sin += sample * s;
-            }
-            let scale = 2.0 / count as f64;
-            Harmonic {
-                order: harmonic as f64 / turns,
-                cos: scale * cos,
-                sin: scale * sin,
-=======
 /// Harmonics of `values`, evenly spaced over one period from crank angle 0, the end not repeated. The
 /// period takes `turns_per_period` turns of the crankshaft (2 for a four-stroke engine), so orders
 /// come in steps of its inverse. The first is order 0, the mean, in `cos`; the last is at most
@@ -81,10 +44,24 @@ pub fn harmonics(values: &[f64], turns_per_period: f64, highest_order: f64) -> V
                 order: k as f64 / turns_per_period,
                 cos: share * cosine,
                 sin: if is_alone { 0.0 } else { share * sine },
->>>>>>> torsion
             }
         })
         .collect()
+}
+
+/// The same course later by `delay` (rad of crank angle): what cylinder 1 does, for one that fires
+/// `delay` after it.
+#[must_use]
+pub fn delayed(harmonics: &[Harmonic], delay: f64) -> Vec<Harmonic> {
+    let later = |one: &Harmonic| {
+        let (sin, cos) = (one.order * delay).sin_cos();
+        Harmonic {
+            order: one.order,
+            cos: one.cos * cos - one.sin * sin,
+            sin: one.cos * sin + one.sin * cos,
+        }
+    };
+    harmonics.iter().map(later).collect()
 }
 
 #[cfg(test)]
@@ -92,31 +69,6 @@ mod tests {
     use super::*;
 
     #[test]
-<<<<<<< HEAD
-    fn a_sum_of_orders_is_found_again() {
-        let orders = [(0.5, 3.0, -1.0), (2.0, 0.0, 4.0), (7.5, 0.25, 0.125)];
-        let period = 2.0 * TAU;
-        let count = 48;
-        let samples: Vec<f64> = (0..count)
-            .map(|k| {
-                let angle = period * k as f64 / count as f64;
-                let sum: f64 = orders
-                    .iter()
-                    .map(|&(order, cos, sin)| Harmonic { order, cos, sin }.at(angle)[0])
-                    .sum();
-                10.0 + sum
-            })
-            .collect();
-        let found = harmonics(&samples, period);
-        assert_eq!(found.len(), 23); // orders 0.5 to 11.5: the 24th is half of 48
-        for harmonic in found {
-            let put_in = orders.iter().find(|row| row.0 == harmonic.order);
-            let &(_, cos, sin) = put_in.unwrap_or(&(0.0, 0.0, 0.0));
-            assert!((harmonic.cos - cos).abs() < 1e-13, "{harmonic:?}");
-            assert!((harmonic.sin - sin).abs() < 1e-13, "{harmonic:?}");
-        }
-    }
-=======
     fn harmonics_of_a_trigonometric_polynomial_are_its_coefficients() {
         let of = |order, cos, sin| Harmonic { order, cos, sin };
         let given = [
@@ -159,11 +111,21 @@ mod tests {
     }
 
     #[test]
+    fn a_delayed_course_is_the_course_of_an_earlier_angle() {
+        let of = |order, cos, sin| Harmonic { order, cos, sin };
+        let given = [of(0.0, 3.0, 0.0), of(0.5, 1.0, -2.0), of(3.0, -5.0, 0.1)];
+        let sum = |harmonics: &[Harmonic], a| harmonics.iter().map(|one| one.at(a)[0]).sum::<f64>();
+        let later = delayed(&given, 4.2);
+        for a in [0.0, 1.0, 7.7] {
+            assert!((sum(&later, a) - sum(&given, a - 4.2)).abs() < 1e-13);
+        }
+    }
+
+    #[test]
     fn nothing_comes_of_nothing() {
         assert!(harmonics(&[], 2.0, 3.0).is_empty());
         assert!(harmonics(&[1.0], 0.0, 3.0).is_empty());
         assert!(harmonics(&[1.0], f64::NAN, 3.0).is_empty());
         assert_eq!(harmonics(&[1.0, 3.0], 2.0, f64::NAN).len(), 1);
     }
->>>>>>> torsion
 }
