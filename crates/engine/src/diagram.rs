@@ -31,7 +31,9 @@ impl IndicatorDiagram {
         let Some(&first) = self.points.first() else {
             return f64::NAN;
         };
-        let within = first[0] + (angle - first[0]).rem_euclid(self.period);
+        // rem_euclid rounds to the period just before its end
+        let along = (angle - first[0]).rem_euclid(self.period);
+        let within = first[0] + if along < self.period { along } else { 0.0 };
         let behind = self.points.partition_point(|point| point[0] <= within);
         let from = self.points[behind.saturating_sub(1)];
         let to = match self.points.get(behind) {

@@ -61,7 +61,9 @@ fn periodic(rows: &[[f64; 2]], period: f64, angle: f64) -> f64 {
     let Some(&first) = rows.first() else {
         return f64::NAN;
     };
-    let within = first[0] + (angle - first[0]).rem_euclid(period);
+    // rem_euclid rounds to the period just before its end
+    let along = (angle - first[0]).rem_euclid(period);
+    let within = first[0] + if along < period { along } else { 0.0 };
     let behind = rows.partition_point(|row| row[0] <= within);
     let from = rows[behind.saturating_sub(1)];
     let to = match rows.get(behind) {
