@@ -5,8 +5,7 @@ mod common;
 use common::{SPEED, close, diagram, diesel, general, inline, layouts, no_gas, plan, rippling};
 use sommerfeld_engine::{
     CrankMotion, CrankTrain, CylinderInstant, EngineLayout, LayoutKind, PinSpeed, Role, ShaftForce,
-    bearing_duties,
-    determinate_main_loads, performance, resultant, shaft_forces,
+    bearing_duties, determinate_main_loads, performance, resultant, shaft_forces,
 };
 use std::f64::consts::{PI, TAU};
 
