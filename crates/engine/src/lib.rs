@@ -49,7 +49,7 @@ pub use mains::{ShaftForce, determinate_main_loads, resultant, shaft_forces};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::{Performance, cycle_work, performance, throw_torques};
-pub use pin_speed::{PinSpeed, balanced_pin_speeds};
+pub use pin_speed::{PinBalance, PinSpeed};
 pub use rod_forces::{RodForces, inertia_force, rod_forces};
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
 pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
