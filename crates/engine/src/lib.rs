@@ -13,10 +13,14 @@
 //!
 //! SI throughout; pressures of the gas are absolute.
 
+mod chamber;
+mod closed_cycle;
+mod combustion;
 mod crank_train;
 mod crankshaft;
 mod diagram;
 mod duty;
+mod heat_release;
 mod layout;
 mod measured;
 mod motion;
@@ -24,14 +28,19 @@ mod performance;
 mod shaft;
 mod smoothing;
 mod torsion;
+mod wall_heat;
 
+pub use chamber::Chamber;
+pub use combustion::{Combustion, CombustionError, GasExchange, GeneratedCycle, HeatRatio};
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
 pub use duty::{BearingDuty, Role};
+pub use heat_release::{HeatRelease, Wiebe};
 pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::Performance;
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
 pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
+pub use wall_heat::{CycleScales, GasInstant, WallHeat, Woschni};
