@@ -9,8 +9,10 @@
 //! beginning of burning, where the rate has a kink; its intervals are halved until the pressures of two
 //! solutions differ by less than 15 times the tolerance (Richardson).
 
-use crate::combustion::{Combustion, CombustionError};
-use crate::{CycleScales, GasInstant, WallHeat};
+use crate::{
+    Chamber, CombustionError, CycleScales, GasExchange, GasInstant, HeatRatio, HeatRelease,
+    WallHeat,
+};
 use sommerfeld_film::Outcome;
 
 /// Error of the pressures over the peak at which halving stops.
@@ -35,11 +37,20 @@ pub(crate) struct State {
     work: f64,
 }
 
+/// What decides a closed cycle.
+pub(crate) struct ClosedGas<'c> {
+    pub(crate) chamber: &'c Chamber,
+    pub(crate) exchange: &'c GasExchange,
+    pub(crate) release: &'c HeatRelease,
+    pub(crate) ratio: HeatRatio,
+    pub(crate) walls: WallHeat,
+    /// rad/s
+    pub(crate) speed: f64,
+}
+
 /// The equations of one closed cycle.
 pub(crate) struct ClosedCycle<'c> {
-    combustion: &'c Combustion,
-    /// rad/s
-    speed: f64,
+    gas: ClosedGas<'c>,
     /// m R, J/K
     charge: f64,
     scales: CycleScales,
@@ -76,23 +87,22 @@ impl Closed {
 }
 
 impl<'c> ClosedCycle<'c> {
-    pub(crate) fn new(combustion: &'c Combustion, speed: f64) -> Self {
-        let (chamber, exchange) = (&combustion.chamber, &combustion.gas_exchange);
+    pub(crate) fn new(gas: ClosedGas<'c>) -> Self {
+        let (chamber, exchange) = (gas.chamber, gas.exchange);
         let volume = chamber.volume(exchange.intake_closes);
         let (pressure, temperature) = (exchange.intake_pressure, exchange.intake_temperature);
         let charge = pressure * volume / temperature;
         let scales = CycleScales {
             bore: chamber.bore,
-            piston_speed: chamber.stroke() * speed / std::f64::consts::PI,
+            piston_speed: chamber.stroke() * gas.speed / std::f64::consts::PI,
             reference: chamber.swept_volume() / charge,
         };
         Self {
-            combustion,
-            speed,
             charge,
             scales,
-            motored: [volume, combustion.heat_ratio.at(temperature)],
-            burning_from: combustion.heat_release.start(),
+            motored: [volume, gas.ratio.at(temperature)],
+            burning_from: gas.release.start(),
+            gas,
         }
     }
 
@@ -115,17 +125,13 @@ impl<'c> ClosedCycle<'c> {
     }
 
     fn gathered(&self, all: Vec<State>, angles: &[f64], error: f64, outcome: Outcome) -> Closed {
-        let exchange = &self.combustion.gas_exchange;
+        let exchange = self.gas.exchange;
         let (from, to) = (exchange.intake_closes, exchange.exhaust_opens);
-        let release = &self.combustion.heat_release;
+        let release = self.gas.release;
         let temperature = |state: &State| self.temperature(state.angle, state.pressure);
         let energy = |state: Option<&State>| {
             state.map_or(f64::NAN, |state| {
-                self.charge
-                    * self
-                        .combustion
-                        .heat_ratio
-                        .internal_energy(temperature(state))
+                self.charge * self.gas.ratio.internal_energy(temperature(state))
             })
         };
         let internal_energy_change = energy(all.last()) - energy(all.first());
@@ -148,11 +154,11 @@ impl<'c> ClosedCycle<'c> {
 
     /// Angles of the mesh, ascending: those asked for, both ends, and the burning.
     fn mesh(&self, angles: &[f64]) -> Vec<f64> {
-        let exchange = &self.combustion.gas_exchange;
+        let exchange = self.gas.exchange;
         let (from, to) = (exchange.intake_closes, exchange.exhaust_opens);
         let mut mesh = vec![from, to];
         mesh.extend_from_slice(angles);
-        for (_, part) in &self.combustion.heat_release.parts {
+        for (_, part) in &self.gas.release.parts {
             mesh.extend((0..=2 * BURNING_STEPS).map(|index| {
                 let way = index as f64 / BURNING_STEPS as f64;
                 part.start + part.duration * way * way
@@ -168,7 +174,7 @@ impl<'c> ClosedCycle<'c> {
 
     /// States on the mesh with `parts` steps in each interval.
     fn march(&self, mesh: &[f64], parts: u32) -> Result<Vec<State>, CombustionError> {
-        let mut state = [self.combustion.gas_exchange.intake_pressure, 0.0, 0.0];
+        let mut state = [self.gas.exchange.intake_pressure, 0.0, 0.0];
         let mut states = Vec::with_capacity(mesh.len());
         for (index, &angle) in mesh.iter().enumerate() {
             if let Some(before) = index.checked_sub(1).and_then(|at| mesh.get(at)) {
@@ -205,12 +211,12 @@ impl<'c> ClosedCycle<'c> {
 
     /// Rates of pressure, wall heat and work with the crank angle.
     fn rates(&self, angle: f64, [pressure, ..]: [f64; 3]) -> [f64; 3] {
-        let chamber = &self.combustion.chamber;
+        let chamber = self.gas.chamber;
         let (volume, volume_rate) = (chamber.volume(angle), chamber.volume_rate(angle));
         let temperature = pressure * volume / self.charge;
-        let ratio = self.combustion.heat_ratio.at(temperature);
+        let ratio = self.gas.ratio.at(temperature);
         let wall_heat = self.wall_heat_rate(angle, pressure, volume);
-        let heat = self.combustion.heat_release.rate(angle) - wall_heat;
+        let heat = self.gas.release.rate(angle) - wall_heat;
         let work = pressure * volume_rate;
         [
             ((ratio - 1.0) * heat - ratio * work) / volume,
@@ -220,11 +226,11 @@ impl<'c> ClosedCycle<'c> {
     }
 
     fn wall_heat_rate(&self, angle: f64, pressure: f64, volume: f64) -> f64 {
-        let WallHeat::Woschni(woschni) = &self.combustion.wall_heat else {
+        let WallHeat::Woschni(woschni) = &self.gas.walls else {
             return 0.0;
         };
         let [start, ratio] = self.motored;
-        let motored = self.combustion.gas_exchange.intake_pressure * (start / volume).powf(ratio);
+        let motored = self.gas.exchange.intake_pressure * (start / volume).powf(ratio);
         let burns = angle > self.burning_from;
         let gas = GasInstant {
             pressure,
@@ -235,12 +241,12 @@ impl<'c> ClosedCycle<'c> {
                 0.0
             },
         };
-        let driving = woschni.driving(&self.combustion.chamber, angle, gas.temperature);
-        woschni.coefficient(&gas, &self.scales) * driving / self.speed
+        let driving = woschni.driving(self.gas.chamber, angle, gas.temperature);
+        woschni.coefficient(&gas, &self.scales) * driving / self.gas.speed
     }
 
     fn temperature(&self, angle: f64, pressure: f64) -> f64 {
-        pressure * self.combustion.chamber.volume(angle) / self.charge
+        pressure * self.gas.chamber.volume(angle) / self.charge
     }
 
     /// Highest pressure: on the cubic through two states and their slopes where the slope changes sign,
