@@ -302,3 +302,65 @@ fn difference(coarse: &[State], fine: &[State]) -> f64 {
         .map(|(a, b)| (a.pressure - b.pressure).abs() / highest)
         .fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::{Wiebe, Woschni};
+
+    #[test]
+    fn pressures_converge_with_the_fourth_order() {
+        let chamber = Chamber {
+            bore: 0.086,
+            crank_radius: 0.043,
+            rod_length: 0.145,
+            pin_offset: 0.0,
+            compression_ratio: 10.0,
+        };
+        let exchange = GasExchange {
+            intake_closes: -2.5,
+            exhaust_opens: 2.5,
+            intake_pressure: 1e5,
+            intake_temperature: 350.0,
+            exhaust_pressure: 1e5,
+            blow_down: 1.0,
+            overlap: 0.3,
+        };
+        let wiebe = Wiebe {
+            start: -0.3,
+            duration: 0.9,
+            efficiency: 5.0,
+            exponent: 4.0,
+        };
+        let release = HeatRelease::single(1200.0, wiebe);
+        let walls = WallHeat::Woschni(Woschni {
+            swirl: 0.0,
+            // Without the term that begins with a kink where the gas outdoes the motored pressure.
+            combustion: 0.0,
+            head_temperature: 500.0,
+            piston_temperature: 520.0,
+            liner_temperature: 400.0,
+            head_area_ratio: 1.0,
+            piston_area_ratio: 1.0,
+        });
+        let cycle = ClosedCycle::new(ClosedGas {
+            chamber: &chamber,
+            exchange: &exchange,
+            release: &release,
+            ratio: HeatRatio::Constant(1.33),
+            walls,
+            speed: 300.0,
+        });
+        let mesh: Vec<f64> = (0..=50)
+            .map(|index| -2.5 + 0.1 * f64::from(index))
+            .collect();
+        let solutions = [1, 2, 4, 8].map(|parts| cycle.march(&mesh, parts).unwrap());
+        let [a, b, c] = [0, 1, 2].map(|at| difference(&solutions[at], &solutions[at + 1]));
+        let orders = [(a / b).log2(), (b / c).log2()];
+        assert!(
+            orders.iter().all(|order| (3.7..4.5).contains(order)),
+            "{orders:?}"
+        );
+    }
+}
