@@ -15,12 +15,19 @@
 //!
 //! SI throughout; pressures of the gas are absolute.
 
+mod chamber;
+mod closed_cycle;
+mod combustion;
+mod combustion_error;
 mod crank_train;
 mod crankshaft;
 mod cylinder;
 mod diagram;
 mod duty;
+mod gas_exchange;
 mod harmonics;
+mod heat_ratio;
+mod heat_release;
 mod kinematics;
 mod layout;
 mod layout_plan;
@@ -34,17 +41,24 @@ mod rod_forces;
 mod shaft;
 mod smoothing;
 mod torsion;
+mod wall_heat;
 
+pub use chamber::{Chamber};
+pub use combustion::{Combustion, GeneratedCycle};
+pub use combustion_error::{CombustionError};
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
-pub use cylinder::CylinderInstant;
+pub use cylinder::{CylinderInstant};
 pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
 pub use duty::{BearingDuty, Role};
-pub use harmonics::harmonics;
+pub use gas_exchange::{GasExchange};
+pub use harmonics::{harmonics};
+pub use heat_ratio::{HeatRatio};
+pub use heat_release::{HeatRelease, Wiebe};
 pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 pub use layout_plan::{LayoutKind, LayoutPlan};
-pub use loads::bearing_duties;
+pub use loads::{bearing_duties};
 pub use mains::{ShaftForce, determinate_main_loads, resultant, shaft_forces};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
@@ -53,3 +67,4 @@ pub use pin_speed::{PinBalance, PinSpeed};
 pub use rod_forces::{RodForces, inertia_force, rod_forces};
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
 pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
+pub use wall_heat::{CycleScales, GasInstant, WallHeat, Woschni};
