@@ -13,6 +13,8 @@
 //!
 //! SI throughout; pressures of the gas are absolute.
 
+mod crank_frame;
+mod crank_station;
 mod crank_train;
 mod crankshaft;
 mod diagram;
@@ -21,8 +23,14 @@ mod layout;
 mod motion;
 mod performance;
 mod shaft;
+mod shaft_error;
+mod shaft_force;
+mod shaft_frame;
+mod supports;
+mod throw_stiffness;
 mod torsion;
 
+pub use crank_frame::condensed_crankshaft;
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use diagram::{Gas, IndicatorDiagram};
@@ -31,4 +39,9 @@ pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::Performance;
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
+pub use shaft_error::ShaftError;
+pub use shaft_force::ShaftForce;
+pub use shaft_frame::condensed_shaft;
+pub use supports::{SupportReactions, support_reactions};
+pub use throw_stiffness::{ThrowStiffness, throw_stiffness};
 pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
