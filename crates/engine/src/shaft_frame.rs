@@ -46,7 +46,8 @@ impl GeneralShaft {
     /// Length of the shaft, m.
     #[must_use]
     pub fn length(&self) -> f64 {
-        self.sections.iter().map(|section| section.length).sum()
+        let lengths = self.sections.iter().map(|section| section.length);
+        lengths.fold(0.0, |sum, length| sum + length)
     }
 
     /// Steps, bearings and places of loads and unbalances, ascending, with both ends.

@@ -1,8 +1,9 @@
 //! How stiff is one throw?
 //!
 //! One throw between two mains, as the crankshaft has it, under the loads by which throws are compared
-//! with finite elements or on a rig; webs are fitted to these figures. A chain of torsional springs
-//! takes its links from the last two.
+//! with finite elements or on a rig; webs are fitted to these figures. A link of a torsional chain, from
+//! throw to throw, lies between the two torsional figures. Mains that are hinged but do not yield leave
+//! the free one as it is: on two hinges a torque alone calls no force across the shaft.
 
 use crate::crank_frame::CrankFrame;
 use crate::{CrankshaftShape, ShaftError, Throw, Web};
@@ -18,8 +19,8 @@ pub struct ThrowStiffness {
     pub bending_across: f64,
     /// Torque over the twist between the mains, one main clamped and the other free, N m/rad.
     pub torsion_free: f64,
-    /// The same with both mains hinged in bearings without play, N m/rad.
-    pub torsion_in_bearings: f64,
+    /// The same with both mains held in position and tilt, N m/rad.
+    pub torsion_held: f64,
 }
 
 /// Stiffness of one throw of a crankshaft of `shape` with `crank_radius` (m).
@@ -50,13 +51,17 @@ pub fn throw_stiffness(
         [rear, 5],
     ];
     let clamp = [0, 1, 2, 3, 4, 5].map(|freedom| [rear, freedom]);
-    let mut held_front = hinge.to_vec();
-    held_front.push([front, 5]);
+    let untwisted = [&hinge[..], &[[front, 5]]].concat();
+    let straight = [
+        &clamp[..],
+        &[[front, 0], [front, 1], [front, 3], [front, 4]],
+    ]
+    .concat();
     Ok(ThrowStiffness {
         bending_in_plane: stiffness(&frame, &hinge, pin, 0)?,
-        bending_across: stiffness(&frame, &held_front, pin, 1)?,
+        bending_across: stiffness(&frame, &untwisted, pin, 1)?,
         torsion_free: stiffness(&frame, &clamp, front, 5)?,
-        torsion_in_bearings: stiffness(&frame, &hinge, front, 5)?,
+        torsion_held: stiffness(&frame, &straight, front, 5)?,
     })
 }
 
