@@ -43,5 +43,5 @@ pub use shaft_error::ShaftError;
 pub use shaft_force::ShaftForce;
 pub use shaft_frame::condensed_shaft;
 pub use supports::{SupportReactions, support_reactions};
-pub use throw_stiffness::{ThrowStiffness, throw_stiffness};
+pub use throw_stiffness::{ThrowStiffness, fitted_web, throw_stiffness};
 pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};

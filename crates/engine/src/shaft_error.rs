@@ -69,6 +69,17 @@ pub enum ShaftError {
         /// How many rods there are.
         needed: usize,
     },
+    /// A throw that no web makes as stiff as wanted.
+    #[error(
+        "{name}: {wanted:e} leaves nothing for the web, journals and pin are softer than that by themselves: \
+         shorten pin_length or main_length in favour of the web, or check units"
+    )]
+    StiffThrow {
+        /// Which figure.
+        name: &'static str,
+        /// What was wanted, N/m or N m/rad.
+        wanted: f64,
+    },
     /// A bearing or a force beside the shaft.
     #[error("{what} {} at {:.3} mm is not on the shaft, which runs from 0 to {:.3} mm", index + 1, axial * MM, length * MM)]
     OffShaft {
