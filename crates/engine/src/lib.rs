@@ -13,6 +13,7 @@
 //!
 //! SI throughout; pressures of the gas are absolute.
 
+mod coupled;
 mod crank_train;
 mod crankshaft;
 mod diagram;
@@ -23,6 +24,10 @@ mod performance;
 mod shaft;
 mod torsion;
 
+pub use coupled::{
+    CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest, FilmExecutor, FilmUpdate,
+    ShaftForces, coupled_orbits, in_sequence,
+};
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use diagram::{Gas, IndicatorDiagram};
