@@ -19,6 +19,7 @@ mod chamber;
 mod closed_cycle;
 mod combustion;
 mod combustion_error;
+mod coupled;
 mod crank_frame;
 mod crank_station;
 mod crank_train;
@@ -53,6 +54,10 @@ mod wall_heat;
 pub use chamber::Chamber;
 pub use combustion::{Combustion, GeneratedCycle};
 pub use combustion_error::CombustionError;
+pub use coupled::{
+    CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest, FilmExecutor, FilmUpdate,
+    ShaftForces, coupled_orbits, in_sequence,
+};
 pub use crank_frame::condensed_crankshaft;
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
