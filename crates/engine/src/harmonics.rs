@@ -49,6 +49,21 @@ pub fn harmonics(values: &[f64], turns_per_period: f64, highest_order: f64) -> V
         .collect()
 }
 
+/// The same course later by `delay` (rad of crank angle): what cylinder 1 does, for one that fires
+/// `delay` after it.
+#[must_use]
+pub fn delayed(harmonics: &[Harmonic], delay: f64) -> Vec<Harmonic> {
+    let later = |one: &Harmonic| {
+        let (sin, cos) = (one.order * delay).sin_cos();
+        Harmonic {
+            order: one.order,
+            cos: one.cos * cos - one.sin * sin,
+            sin: one.cos * sin + one.sin * cos,
+        }
+    };
+    harmonics.iter().map(later).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -92,6 +107,17 @@ mod tests {
                     "{count} values, row {j}: {sum}, {value}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn a_delayed_course_is_the_course_of_an_earlier_angle() {
+        let of = |order, cos, sin| Harmonic { order, cos, sin };
+        let given = [of(0.0, 3.0, 0.0), of(0.5, 1.0, -2.0), of(3.0, -5.0, 0.1)];
+        let sum = |harmonics: &[Harmonic], a| harmonics.iter().map(|one| one.at(a)[0]).sum::<f64>();
+        let later = delayed(&given, 4.2);
+        for a in [0.0, 1.0, 7.7] {
+            assert!((sum(&later, a) - sum(&given, a - 4.2)).abs() < 1e-13);
         }
     }
 

@@ -28,9 +28,12 @@ pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use diagram::{Gas, IndicatorDiagram};
 pub use duty::{BearingDuty, Role};
-pub use harmonics::harmonics;
+pub use harmonics::{delayed, harmonics};
 pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::Performance;
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
-pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
+pub use torsion::{
+    ChainMatrices, Damper, DamperOptimum, DamperTask, Disc, NaturalVibration, RippleSettings,
+    SettledRipple, TorsionError, TorsionResponse, TorsionalChain, TorsionalLink, settle_ripple,
+};
