@@ -22,3 +22,22 @@ pub struct Gas {
     /// not scaled.
     pub peaks: Vec<[f64; 2]>,
 }
+
+impl IndicatorDiagram {
+    /// Absolute pressure at a cycle angle (rad from the firing top dead centre, any turn), Pa: linear
+    /// between the points. Not a number without points.
+    #[must_use]
+    pub fn at(&self, angle: f64) -> f64 {
+        let Some(&first) = self.points.first() else {
+            return f64::NAN;
+        };
+        let within = first[0] + (angle - first[0]).rem_euclid(self.period);
+        let behind = self.points.partition_point(|point| point[0] <= within);
+        let from = self.points[behind.saturating_sub(1)];
+        let to = match self.points.get(behind) {
+            Some(&to) => to,
+            None => [first[0] + self.period, first[1]],
+        };
+        from[1] + (within - from[0]) / (to[0] - from[0]) * (to[1] - from[1])
+    }
+}

@@ -5,7 +5,7 @@
 //! `J = m_p x'^2 + m_r (x_g'^2 + y_g'^2) + I_r beta'^2`, derivatives by `b`. Its mean belongs to the
 //! disc of a torsional chain; what it swings by, mostly at order 2, is excitation (`ripple`).
 
-use crate::CrankTrain;
+use crate::{CrankTrain, SliderCrank, ThrowInstant};
 use std::f64::consts::TAU;
 
 /// Points of the mean over a turn. `J` is smooth and periodic: the sum converges like a power of the
@@ -17,16 +17,16 @@ impl CrankTrain {
     /// stands at `angle` (rad) from the cylinder axis. Not a number if the rod cannot follow.
     #[must_use]
     pub fn slider_inertia(&self, angle: f64) -> f64 {
-        let (sin, cos) = angle.sin_cos();
-        let (r, l) = (self.crank_radius, self.rod_length);
-        let sin_rod = (r * sin - self.pin_offset) / l;
-        let cos_rod = (1.0 - sin_rod * sin_rod).sqrt();
-        let turn = r * cos / (l * cos_rod);
-        let piston = -r * sin - l * sin_rod * turn;
+        let instant = SliderCrank::of(self).at(ThrowInstant {
+            angle,
+            speed: 1.0,
+            acceleration: 0.0,
+        });
+        let turn = instant.rod_speed;
+        let ([x, y], [pin_x, pin_y]) = (instant.rod_direction, instant.crankpin);
         let a = self.rod.centre_of_gravity;
-        let along = -r * sin - a * sin_rod * turn;
-        let across = r * cos - a * cos_rod * turn;
-        self.piston_mass * piston * piston
+        let [along, across] = [-pin_y - a * turn * y, pin_x + a * turn * x];
+        self.piston_mass * instant.piston_speed * instant.piston_speed
             + self.rod.mass * (along * along + across * across)
             + self.rod.inertia * turn * turn
     }

@@ -29,5 +29,5 @@ pub use chain::{ChainMatrices, Disc, TorsionError, TorsionalChain, TorsionalLink
 pub use damper::Damper;
 pub use forced::TorsionResponse;
 pub use free::NaturalVibration;
-pub use ripple::{RippleSettings, SettledRipple, settle_ripple};
+pub use ripple::{RippleSettings, SettledRipple, engine_ripple, settle_ripple};
 pub use tuning::{DamperOptimum, DamperTask};

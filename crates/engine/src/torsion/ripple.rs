@@ -16,9 +16,10 @@
 use super::chain::{Range, require_task};
 use super::forced::{amplitude, harmonic};
 use super::{TorsionError, TorsionResponse, TorsionalChain};
-use crate::{CrankMotion, Harmonic, Twist};
+use crate::{CrankMotion, CrankTrain, Harmonic, IndicatorDiagram, Twist, harmonics, throw_torques};
 use nalgebra::{Complex, DMatrix, DVector};
 use sommerfeld_film::Outcome;
+use std::f64::consts::TAU;
 
 /// Earlier iterates that the mixing looks at.
 const MEMORY: usize = 6;
@@ -54,6 +55,44 @@ pub struct SettledRipple {
     pub change: f64,
     /// Converged, or not converged.
     pub outcome: Outcome,
+}
+
+/// Vibration of an engine whose gas, pistons and rods drive its chain, at the mean `speed` (rad/s):
+/// [`settle_ripple`] with the exact torques at `points` even steps of the crank angle, up to
+/// `highest_order`. Every throw drives one disc, whose inertia contains the mean of its pistons and rods.
+///
+/// # Errors
+/// As [`settle_ripple`]; also a train or a diagram whose torques are not finite.
+pub fn engine_ripple(
+    train: &CrankTrain,
+    diagram: &IndicatorDiagram,
+    chain: &TorsionalChain,
+    speed: f64,
+    points: usize,
+    highest_order: f64,
+    settings: RippleSettings,
+) -> Result<SettledRipple, TorsionError> {
+    let axial: Vec<f64> = train
+        .layout
+        .throws
+        .iter()
+        .map(|throw| throw.axial)
+        .collect();
+    let period = train.period();
+    let torques = |motion: &CrankMotion| {
+        let mut throws = vec![Vec::with_capacity(points); axial.len()];
+        for step in 0..points {
+            let crank_angle = period * step as f64 / points as f64;
+            let row = throw_torques(train, diagram, motion, crank_angle);
+            for (throw, torque) in throws.iter_mut().zip(row) {
+                throw.push(torque);
+            }
+        }
+        let orders = |values: &Vec<f64>| harmonics(values, period / TAU, highest_order);
+        throws.iter().map(orders).collect()
+    };
+    let means = train.mean_slider_inertias();
+    settle_ripple(chain, speed, &axial, &means, settings, torques)
 }
 
 /// What settles: the chain, its speed and its throws.
