@@ -65,14 +65,14 @@ pub use cylinder::CylinderInstant;
 pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
 pub use duty::{BearingDuty, Role};
 pub use gas_exchange::GasExchange;
-pub use harmonics::harmonics;
+pub use harmonics::{delayed, harmonics};
 pub use heat_ratio::HeatRatio;
 pub use heat_release::{HeatRelease, Wiebe};
 pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 pub use layout_plan::{LayoutKind, LayoutPlan};
 pub use loads::bearing_duties;
-pub use mains::{ShaftForce, determinate_main_loads, resultant, shaft_forces};
+pub use mains::{determinate_main_loads, resultant, shaft_forces};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::{Performance, cycle_work, performance, throw_torques};
@@ -84,5 +84,9 @@ pub use shaft_force::ShaftForce;
 pub use shaft_frame::condensed_shaft;
 pub use supports::{SupportReactions, support_reactions};
 pub use throw_stiffness::{ThrowStiffness, fitted_web, throw_stiffness};
-pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
+pub use torsion::{
+    ChainMatrices, Damper, DamperOptimum, DamperTask, Disc, NaturalVibration, RippleSettings,
+    SettledRipple, TorsionError, TorsionResponse, TorsionalChain, TorsionalLink, engine_ripple,
+    settle_ripple,
+};
 pub use wall_heat::{CycleScales, GasInstant, WallHeat, Woschni};

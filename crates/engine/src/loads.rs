@@ -9,9 +9,10 @@
 //! The pin's mass is part of the piston's: the inertia force of the pin itself, which goes from the rod
 //! through the small end only, is left in the load of the bosses too.
 
-use crate::mains::{ShaftForce, determinate_main_loads, unbalance_forces};
+use crate::mains::{determinate_main_loads, unbalance_forces};
 use crate::{
     BearingDuty, CrankMotion, CrankTrain, CylinderInstant, IndicatorDiagram, PinSpeed, Role,
+    ShaftForce,
 };
 use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 
