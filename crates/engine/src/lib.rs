@@ -16,6 +16,7 @@
 mod crank_train;
 mod crankshaft;
 mod diagram;
+mod drilling;
 mod duty;
 mod layout;
 mod motion;
@@ -26,6 +27,9 @@ mod torsion;
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use diagram::{Gas, IndicatorDiagram};
+pub use drilling::{
+    Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
+};
 pub use duty::{BearingDuty, Role};
 pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
