@@ -19,6 +19,7 @@ mod diagram;
 mod drilling;
 mod duty;
 mod layout;
+mod layout_plan;
 mod motion;
 mod performance;
 mod shaft;
@@ -31,7 +32,8 @@ pub use drilling::{
     Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
 };
 pub use duty::{BearingDuty, Role};
-pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
+pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
+pub use layout_plan::{LayoutKind, LayoutPlan};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::Performance;
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
