@@ -15,13 +15,20 @@
 //!
 //! SI throughout; pressures of the gas are absolute.
 
+mod chamber;
+mod closed_cycle;
+mod combustion;
+mod combustion_error;
 mod crank_train;
 mod crankshaft;
 mod cylinder;
 mod diagram;
 mod drilling;
 mod duty;
+mod gas_exchange;
 mod harmonics;
+mod heat_ratio;
+mod heat_release;
 mod kinematics;
 mod layout;
 mod layout_plan;
@@ -35,7 +42,11 @@ mod rod_forces;
 mod shaft;
 mod smoothing;
 mod torsion;
+mod wall_heat;
 
+pub use chamber::Chamber;
+pub use combustion::{Combustion, GeneratedCycle};
+pub use combustion_error::CombustionError;
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use cylinder::CylinderInstant;
@@ -44,6 +55,9 @@ pub use drilling::{
     Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
 };
 pub use duty::{BearingDuty, Role};
+pub use gas_exchange::GasExchange;
+pub use heat_ratio::HeatRatio;
+pub use heat_release::{HeatRelease, Wiebe};
 pub use harmonics::harmonics;
 pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
@@ -57,3 +71,4 @@ pub use pin_speed::{PinBalance, PinSpeed};
 pub use rod_forces::{RodForces, inertia_force, rod_forces};
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
 pub use torsion::{Disc, TorsionResponse, TorsionalChain, TorsionalLink};
+pub use wall_heat::{CycleScales, GasInstant, WallHeat, Woschni};
