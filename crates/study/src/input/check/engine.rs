@@ -506,7 +506,7 @@ impl Crank<'_> {
             message,
             ..keys.place.clone()
         };
-        let drilling = match (keys.radii, keys.fed_by) {
+        let drilling = match (keys.radii, &keys.fed_by) {
             (Some([inlet_radius, outlet_radius]), _) => Drilling {
                 feed: keys.feed,
                 inlet_radius,
@@ -545,7 +545,8 @@ impl Crank<'_> {
             message,
             ..keys.place.clone()
         };
-        let (Some(fed_by), Some(hole)) = (keys.fed_by, bearing.bearing.feeds.get(keys.feed)) else {
+        let hole = bearing.bearing.feeds.get(keys.feed);
+        let (Some(fed_by), Some(hole)) = (&keys.fed_by, hole) else {
             return Err(Box::new(place("the drilling has no hole".into())));
         };
         if bearing.role != Role::BigEnd {
@@ -553,7 +554,16 @@ impl Crank<'_> {
             return Err(Box::new(place(message).allowing("pressure or pressure_file")));
         }
         let mains = self.train.layout.mains.len();
-        let number = fed_by.main;
+        let cylinders = self.train.layout.cylinders.len();
+        let number = match fed_by.mains[..] {
+            [only] => only,
+            ref each if each.len() == cylinders => each.get(bearing.index).copied().unwrap_or(0),
+            ref each => {
+                let error = place(format!("{} main bearings feed {cylinders} pins", each.len()));
+                let allowed = format!("one number for all cylinders, or {cylinders} numbers");
+                return Err(Box::new(error.allowing(allowed)));
+            }
+        };
         let main = number.wrapping_sub(1);
         if main >= mains {
             let error = place(format!("there is no main bearing {number}"));

@@ -11,15 +11,21 @@ use std::f64::consts::PI;
 
 const FILE: &str = "engine.gas.file";
 const DIAGRAM: &str = "engine.diagram";
+const COMBUSTION: &str = "engine.combustion";
 
 impl Checker<'_> {
     /// Gas over the speeds of the engine.
     pub(super) fn gas(&mut self, speeds: &[f64]) -> Option<Gas> {
         let has_file = self.entry(FILE).is_some();
         let has_list = self.entry(DIAGRAM).is_some();
-        let sources = [(has_file, FILE), (has_list, DIAGRAM)];
+        let is_generated = self.entry(COMBUSTION).is_some();
+        let sources = [
+            (has_file, FILE),
+            (has_list, DIAGRAM),
+            (is_generated, COMBUSTION),
+        ];
         let given: Vec<&str> = sources.iter().filter(|s| s.0).map(|s| s.1).collect();
-        let allowed = "engine.gas.file, or [[engine.diagram]] for each speed";
+        let allowed = "engine.gas.file, [[engine.diagram]] for each speed, or [engine.combustion]";
         if let [_, second, ..] = given[..] {
             let error = self.section_error(second, "the gas pressure is given twice");
             self.errors.push(error.allowing(allowed));
@@ -32,12 +38,15 @@ impl Checker<'_> {
                 let named_at = self.error_at(FILE, "");
                 vec![(0.0, self.diagram(&name, named_at, &settings)?)]
             }
-            [_] => self.diagrams(&settings)?,
+            [DIAGRAM] => self.diagrams(&settings)?,
+            [_] => self.generated_gas(speeds)?,
             _ => {
                 let error = self.section_error("engine", "the gas pressure is missing");
                 let error = error.with_value("").of_key("engine.gas").allowing(allowed);
                 self.errors
-                    .push(error.hinting("[engine.gas] with file = \"pressure.csv\""));
+                    .push(error.hinting(
+                        "[engine.gas] with file = \"pressure.csv\", or [engine.combustion] without a measurement",
+                    ));
                 return None;
             }
         };

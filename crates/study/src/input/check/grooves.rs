@@ -82,10 +82,10 @@ pub(super) struct DrillingKeys {
 }
 
 /// Where a drilling takes its oil, as given.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct FedBy {
-    /// Number of the main bearing, from 1.
-    pub(super) main: usize,
+    /// Number of the main bearing, from 1: one for all cylinders, or one for each.
+    pub(super) mains: Vec<usize>,
     /// Angle of the inlet from the crank arm, rad.
     pub(super) inlet_angle: Option<f64>,
     /// Diameter of the inlet, m; that of the hole where none is given.
@@ -173,7 +173,7 @@ impl GrooveCheck<'_, '_> {
             let error = self.error(path, "the inlet belongs to a drilling that a main bearing feeds");
             return Err(vec![error.allowing("with fed_by")]);
         }
-        let Some(Value::Integer(main)) = value_in(self.entries, FED_BY) else {
+        let Some(Value::Integers(mains)) = value_in(self.entries, FED_BY) else {
             let place = self.error(OUTLET_RADIUS, "");
             let drilling = radii.map(|radii| DrillingKeys {
                 feed: 0,
@@ -204,7 +204,7 @@ impl GrooveCheck<'_, '_> {
             feed: 0,
             radii: None,
             fed_by: Some(FedBy {
-                main: usize::try_from(main).unwrap_or(0),
+                mains: mains.iter().map(|n| usize::try_from(*n).unwrap_or(0)).collect(),
                 inlet_angle: self.number(INLET_ANGLE).ok(),
                 inlet_diameter: self.number(INLET_DIAMETER).ok(),
             }),

@@ -1,6 +1,7 @@
 //! From values to a study: what is missing, what is not used, and what no single key can tell.
 
 mod bearing;
+mod combustion;
 mod crankshaft;
 mod duty;
 mod engine;
