@@ -26,6 +26,7 @@ mod crank_train;
 mod crankshaft;
 mod cylinder;
 mod diagram;
+mod drilling;
 mod duty;
 mod gas_exchange;
 mod harmonics;
@@ -63,6 +64,9 @@ pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
 pub use cylinder::CylinderInstant;
 pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
+pub use drilling::{
+    Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
+};
 pub use duty::{BearingDuty, Role};
 pub use gas_exchange::GasExchange;
 pub use harmonics::{delayed, harmonics};
@@ -72,7 +76,7 @@ pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 pub use layout_plan::{LayoutKind, LayoutPlan};
 pub use loads::bearing_duties;
-pub use mains::{determinate_main_loads, resultant, shaft_forces};
+pub use mains::{ShaftForce, determinate_main_loads, resultant, shaft_forces};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::{Performance, cycle_work, performance, throw_torques};
