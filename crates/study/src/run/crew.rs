@@ -204,7 +204,15 @@ mod tests {
     #[test]
     fn a_stop_reaches_units_at_work() {
         let mut desk = notes(1);
+        let is_under_way = AtomicBool::new(false);
+        // The first unit ends, and with it the run, only when the second is at work for good.
         let endless = |unit: usize, progress: &mut ProgressCallback<'_>| {
+            if unit > 0 {
+                is_under_way.store(true, Ordering::Relaxed);
+            }
+            while !is_under_way.load(Ordering::Relaxed) {
+                std::thread::sleep(Duration::from_millis(1));
+            }
             while unit > 0 && progress(ProgressEvent::new("", 0.5)).is_continue() {
                 std::thread::sleep(Duration::from_millis(1));
             }
