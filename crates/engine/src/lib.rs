@@ -16,18 +16,27 @@
 mod crank_train;
 mod crankshaft;
 mod diagram;
+mod drilling;
 mod duty;
 mod layout;
+mod layout_plan;
+mod measured;
 mod motion;
 mod performance;
 mod shaft;
+mod smoothing;
 mod torsion;
 
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
-pub use diagram::{Gas, IndicatorDiagram};
+pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
+pub use drilling::{
+    Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
+};
 pub use duty::{BearingDuty, Role};
-pub use layout::{Cylinder, EngineLayout, Strokes, Throw};
+pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
+pub use layout_plan::{LayoutKind, LayoutPlan};
+pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::Performance;
 pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
