@@ -1,6 +1,14 @@
 //! What an engine gives and how it shakes: torque, mean effective pressure, orders.
+//!
+//! Torque of a throw: moment of the rod's force on its pin. Work of the gas over a cycle: the integral of
+//! its torque, i.e. of p dV. The shaking force is what it takes to accelerate pistons, rods and unbalances,
+//! reversed; the block feels it together with the gas on the heads, which the mains and the side thrust
+//! return. Mean torque and work are Gauss sums between the kinks of the indicator diagram, to round-off
+//! for a shaft that turns evenly; the rows are values at their crank angles.
 
-use crate::Harmonic;
+use crate::harmonics::harmonics;
+use crate::mains::{ShaftForce, resultant, unbalance_forces};
+use crate::{CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, SliderCrank};
 use serde::{Deserialize, Serialize};
 
 /// Torque, work and shaking of an engine over one working cycle, at evenly spaced crank angles.
@@ -32,4 +40,170 @@ pub struct Performance {
     pub force_orders: [Vec<Harmonic>; 2],
     /// Harmonics of the shaking moment about x and y, N m.
     pub moment_orders: [Vec<Harmonic>; 2],
+}
+
+/// Torque, work and shaking of an engine at `points` even steps of the crank angle from 0.
+#[must_use]
+pub fn performance(
+    train: &CrankTrain,
+    diagram: &IndicatorDiagram,
+    motion: &CrankMotion,
+    points: usize,
+) -> Performance {
+    let period = train.period();
+    let cylinders = train.layout.cylinders.len();
+    let mut found = Performance::empty(cylinders, points);
+    let middle = middle_of_mains(&train.layout.mains);
+    for step in 0..points {
+        let crank_angle = period * step as f64 / points as f64;
+        found.add_row(train, diagram, motion, crank_angle, middle);
+    }
+    let area = train.piston_area();
+    found.swept_volume = cylinders as f64 * area * SliderCrank::of(train).stroke();
+    let all_torques: f64 = (0..cylinders)
+        .map(|index| cycle_integral(train, diagram, motion, index, CylinderInstant::torque))
+        .sum();
+    found.mean_torque = all_torques / period;
+    let work = cycle_work(train, diagram);
+    found.indicated_mean_effective_pressure = cylinders as f64 * work / found.swept_volume;
+    found.torque_orders = harmonics(&found.torque, period);
+    let orders = |rows: &[[f64; 2]]| {
+        [0, 1].map(|axis| {
+            let component: Vec<f64> = rows.iter().map(|row| row[axis]).collect();
+            harmonics(&component, period)
+        })
+    };
+    found.force_orders = orders(&found.shaking_force);
+    found.moment_orders = orders(&found.shaking_moment);
+    found
+}
+
+/// Torque of the rods on each throw (N m, in the sense of rotation) at a crank angle (rad): gas and inertia
+/// of pistons and rods.
+#[must_use]
+pub fn throw_torques(
+    train: &CrankTrain,
+    diagram: &IndicatorDiagram,
+    motion: &CrankMotion,
+    crank_angle: f64,
+) -> Vec<f64> {
+    let mut torques = vec![0.0; train.layout.throws.len()];
+    for (index, cylinder) in train.layout.cylinders.iter().enumerate() {
+        if let Some(instant) = CylinderInstant::at(train, diagram, motion, index, crank_angle) {
+            torques[cylinder.throw] += instant.torque();
+        }
+    }
+    torques
+}
+
+/// Work of the gas on one piston over a working cycle, J.
+#[must_use]
+pub fn cycle_work(train: &CrankTrain, diagram: &IndicatorDiagram) -> f64 {
+    let even = CrankMotion::even(1.0);
+    cycle_integral(train, diagram, &even, 0, CylinderInstant::gas_torque)
+}
+
+/// Integral over the crank angle of a working cycle of a quantity of one cylinder.
+fn cycle_integral(
+    train: &CrankTrain,
+    diagram: &IndicatorDiagram,
+    motion: &CrankMotion,
+    index: usize,
+    quantity: impl Fn(&CylinderInstant) -> f64,
+) -> f64 {
+    /// Largest crank angle of a panel, rad: three degrees.
+    const PANEL: f64 = std::f64::consts::PI / 60.0;
+    /// Places in a panel of length 2 and their weights (Gauss-Legendre, exact to degree 7).
+    const GAUSS: [[f64; 2]; 4] = [
+        [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
+        [-0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
+        [0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
+        [0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
+    ];
+    let Some(cylinder) = train.layout.cylinders.get(index) else {
+        return f64::NAN;
+    };
+    let Some(&[first, _]) = diagram.points.first() else {
+        return f64::NAN;
+    };
+    let start = cylinder.firing_angle + SliderCrank::of(train).top_dead_centre();
+    let kinks = diagram.points.iter().map(|point| point[0]);
+    let ends = kinks.skip(1).chain([first + diagram.period]);
+    let mut sum = 0.0;
+    let mut from = first;
+    for to in ends {
+        let panels = ((to - from) / PANEL).ceil().max(0.0) as usize;
+        let half = 0.5 * (to - from) / panels as f64;
+        for panel in 0..panels {
+            let middle = start + from + half * (2 * panel + 1) as f64;
+            for [place, weight] in GAUSS {
+                let angle = middle + half * place;
+                let instant = CylinderInstant::at(train, diagram, motion, index, angle);
+                sum += half * weight * instant.as_ref().map_or(f64::NAN, &quantity);
+            }
+        }
+        from = to;
+    }
+    sum
+}
+
+fn middle_of_mains(mains: &[f64]) -> f64 {
+    match (mains.first(), mains.last()) {
+        (Some(first), Some(last)) => 0.5 * (first + last),
+        _ => 0.0,
+    }
+}
+
+impl Performance {
+    fn empty(cylinders: usize, points: usize) -> Self {
+        Self {
+            crank_angles: Vec::with_capacity(points),
+            gas_pressure: Vec::with_capacity(points),
+            torque: Vec::with_capacity(points),
+            gas_torque: Vec::with_capacity(points),
+            mean_torque: f64::NAN,
+            indicated_mean_effective_pressure: f64::NAN,
+            swept_volume: f64::NAN,
+            shaking_force: Vec::with_capacity(points),
+            shaking_moment: Vec::with_capacity(points),
+            side_thrust: vec![Vec::with_capacity(points); cylinders],
+            torque_orders: Vec::new(),
+            force_orders: [Vec::new(), Vec::new()],
+            moment_orders: [Vec::new(), Vec::new()],
+        }
+    }
+
+    fn add_row(
+        &mut self,
+        train: &CrankTrain,
+        diagram: &IndicatorDiagram,
+        motion: &CrankMotion,
+        crank_angle: f64,
+        middle: f64,
+    ) {
+        let (mut torque, mut gas_torque) = (0.0, 0.0);
+        let mut shaking: Vec<ShaftForce> = unbalance_forces(train, motion, crank_angle).collect();
+        for (index, cylinder) in train.layout.cylinders.iter().enumerate() {
+            let Some(instant) = CylinderInstant::at(train, diagram, motion, index, crank_angle)
+            else {
+                continue;
+            };
+            torque += instant.torque();
+            gas_torque += instant.gas_torque();
+            shaking.push(ShaftForce {
+                axial: cylinder.axial,
+                force: instant.in_engine_frame(instant.inertia_force),
+            });
+            self.side_thrust[index].push(instant.forces.side_thrust);
+            if index == 0 {
+                self.gas_pressure.push(instant.gas_pressure);
+            }
+        }
+        let (force, moment) = resultant(&shaking, middle);
+        self.crank_angles.push(crank_angle);
+        self.torque.push(torque);
+        self.gas_torque.push(gas_torque);
+        self.shaking_force.push(force);
+        self.shaking_moment.push(moment);
+    }
 }
