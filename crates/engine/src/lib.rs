@@ -38,17 +38,17 @@ mod torsion;
 
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
-pub use cylinder::{CylinderInstant};
+pub use cylinder::CylinderInstant;
 pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
 pub use drilling::{
     Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
 };
 pub use duty::{BearingDuty, Role};
-pub use harmonics::{harmonics};
+pub use harmonics::harmonics;
 pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 pub use layout_plan::{LayoutKind, LayoutPlan};
-pub use loads::{bearing_duties};
+pub use loads::bearing_duties;
 pub use mains::{ShaftForce, determinate_main_loads, resultant, shaft_forces};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
