@@ -108,6 +108,8 @@ fn analysis(mode: Mode) -> Analysis {
         Mode::Equilibrium => Analysis::Equilibrium,
         Mode::Coefficients => Analysis::Coefficients,
         Mode::LoadCycle => Analysis::LoadCycle,
+        Mode::Engine => Analysis::Engine,
+        Mode::Shaft => Analysis::Shaft,
         Mode::Sweep => Analysis::Sweep,
     }
 }

@@ -9,8 +9,7 @@ use crate::run::cycle::without_orbit;
 use crate::run::{edge_contact_message, outcome_message};
 use crate::{regime::FlowRegime, sanity};
 use sommerfeld_bearing::LoadCycle;
-use sommerfeld_engine::Performance;
-use sommerfeld_film::Outcome;
+use sommerfeld_film::{Bearing, Outcome};
 use std::collections::BTreeMap;
 
 /// Bearings named one by one among the messages; all of them are in the table.
@@ -35,20 +34,23 @@ pub(super) fn assemble(
     let mut speeds = Vec::new();
     for (at, speed) in work.speeds.into_iter().enumerate() {
         let mut bearings = Vec::new();
-        for (index, (bearing, cycle)) in work.plan.bearings.iter().zip(speed.cycles).enumerate() {
+        let duties = speed.bearings.into_iter().zip(speed.cycles);
+        for (index, (planned, (bearing, cycle))) in
+            work.plan.bearings.iter().zip(duties).enumerate()
+        {
             let found = by_place.remove(&(at, index));
             notes.extend(found.iter().flat_map(|found| found.notes.clone()));
-            bearings.push(bearing_results(bearing, cycle, found));
+            bearings.push(bearing_results(planned, bearing, cycle, found));
         }
         let mean_power = bearings.iter().map(mean_power_loss).sum::<f64>();
-        let performance = speed.performance;
+        // Work of the period over the swept volume.
+        let work_lost = mean_power * speed.period / speed.motion.speed;
+        let swept = speed.performance.as_ref().map(|engine| engine.swept_volume);
         speeds.push(SpeedResults {
             speed: speed.motion.speed,
             outcome: outcome_of(bearings.iter()),
-            friction_mean_effective_pressure: performance
-                .as_ref()
-                .map(|performance| mean_effective_pressure(mean_power, performance, &speed.motion)),
-            performance,
+            friction_mean_effective_pressure: swept.map(|swept| work_lost / swept),
+            performance: speed.performance,
             torsion: speed.torsion,
             bearings,
         });
@@ -67,21 +69,18 @@ pub(super) fn assemble(
 }
 
 fn bearing_results(
-    bearing: &MachineBearing,
+    planned: &MachineBearing,
+    bearing: Bearing,
     cycle: LoadCycle,
     found: Option<BearingFound>,
 ) -> BearingResults {
     let (load, determinate_load, cycle) = match found {
-        None => (
-            cycle,
-            None,
-            without_orbit(&bearing.bearing, Outcome::NotConverged),
-        ),
+        None => (cycle, None, without_orbit(&bearing, Outcome::NotConverged)),
         Some(found) => (
             found.load,
             found.determinate_load,
             CycleResults {
-                bearing: bearing.bearing.clone(),
+                bearing,
                 orbit: found.orbit,
                 feed_flows: found.feed_flows,
                 fields: found.fields,
@@ -90,9 +89,9 @@ fn bearing_results(
         ),
     };
     BearingResults {
-        name: bearing.name.clone(),
-        role: bearing.role,
-        index: bearing.index,
+        name: planned.name.clone(),
+        role: planned.role,
+        index: planned.index,
         load,
         determinate_load,
         cycle,
@@ -101,21 +100,6 @@ fn bearing_results(
 
 fn mean_power_loss(bearing: &BearingResults) -> f64 {
     bearing.cycle.mean(|point| point.summary.power_loss())
-}
-
-/// Work of one cycle at a mean power (W) over the swept volume, Pa.
-fn mean_effective_pressure(
-    mean_power: f64,
-    performance: &Performance,
-    motion: &sommerfeld_engine::CrankMotion,
-) -> f64 {
-    // Evenly spaced, the first repeated at the end of the period: its crank angle follows.
-    let angles = &performance.crank_angles;
-    let period = match angles.as_slice() {
-        [first, second, ..] => (second - first) * angles.len() as f64,
-        _ => f64::NAN,
-    };
-    mean_power * period / (motion.speed * performance.swept_volume)
 }
 
 /// Converged only if all are; the outcome they share, if those that failed share one.

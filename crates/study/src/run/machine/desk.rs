@@ -5,7 +5,6 @@ use super::{ProgressCallback, RunError, Work};
 use crate::ledger::{Entry, Ledger};
 use crate::output::OutputError;
 use crate::progress::ProgressEvent;
-use crate::results::machine::speed_words;
 use crate::results::status_name;
 use crate::run::crew::{Desk, News};
 use flate2::Compression;
@@ -82,19 +81,12 @@ impl<'a> UnitDesk<'a> {
     /// What a finished unit did not solve.
     fn failures(&self, unit: usize, found: &UnitFound) -> Vec<String> {
         let speed = self.work.units.get(unit).map_or(0, |unit| unit.speed);
-        let speed = self
-            .work
-            .speeds
-            .get(speed)
-            .map_or(f64::NAN, |at| at.motion.speed);
         let failed = found.iter();
         let failed = failed.filter(|found| found.orbit.outcome != Outcome::Converged);
         failed
             .map(|found| {
-                let bearing = self.work.plan.bearings.get(found.bearing);
-                let name = bearing.map_or("a bearing", |bearing| bearing.name.as_str());
                 let status = status_name(found.orbit.outcome);
-                format!("{name} at {}: {status}", speed_words(speed))
+                format!("{}: {status}", self.work.place(speed, found.bearing))
             })
             .collect()
     }

@@ -6,6 +6,7 @@
 
 mod assemble;
 mod desk;
+mod pin;
 mod speeds;
 mod units;
 
@@ -17,6 +18,7 @@ use crate::input::{FilmSettings, Machine, MachinePlan, Study};
 use crate::ledger::{Ledger, LedgerStudy};
 use crate::models::{self, Model};
 use crate::output::{check_directory, prepare_directory, write_all};
+use crate::results::machine::speed_words;
 use crate::results::{Body, Results};
 use assemble::assemble;
 use desk::{UnitDesk, read};
@@ -45,6 +47,14 @@ impl<'a> Work<'a> {
             speeds: speeds.collect::<Result<_, _>>()?,
             units: units(plan),
         })
+    }
+
+    /// A bearing at a speed, by their indices, for a reader.
+    fn place(&self, speed: usize, bearing: usize) -> String {
+        let speed = self.plan.speeds.get(speed).copied().unwrap_or(f64::NAN);
+        let bearing = self.plan.bearings.get(bearing);
+        let name = bearing.map_or("a bearing", |bearing| bearing.name.as_str());
+        format!("{name} at {}", speed_words(speed))
     }
 }
 
