@@ -10,6 +10,11 @@ use crate::harmonics::harmonics;
 use crate::mains::{ShaftForce, resultant, unbalance_forces};
 use crate::{CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, SliderCrank};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
+
+/// Highest order that is told: what torsional vibration commonly asks for (Ker Wilson, Practical Solution
+/// of Torsional Vibration Problems, 1963, lists engines to order 12).
+const HIGHEST_ORDER: f64 = 12.0;
 
 /// Torque, work and shaking of an engine over one working cycle, at evenly spaced crank angles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,16 +71,23 @@ pub fn performance(
     found.mean_torque = all_torques / period;
     let work = cycle_work(train, diagram);
     found.indicated_mean_effective_pressure = cylinders as f64 * work / found.swept_volume;
-    found.torque_orders = harmonics(&found.torque, period);
+    found.torque_orders = orders_of(&found.torque, period);
     let orders = |rows: &[[f64; 2]]| {
         [0, 1].map(|axis| {
             let component: Vec<f64> = rows.iter().map(|row| row[axis]).collect();
-            harmonics(&component, period)
+            orders_of(&component, period)
         })
     };
     found.force_orders = orders(&found.shaking_force);
     found.moment_orders = orders(&found.shaking_moment);
     found
+}
+
+/// Harmonics of even samples over a period (rad), without the mean.
+fn orders_of(samples: &[f64], period: f64) -> Vec<Harmonic> {
+    let mut all = harmonics(samples, period / TAU, HIGHEST_ORDER);
+    all.retain(|harmonic| harmonic.order > 0.0);
+    all
 }
 
 /// Torque of the rods on each throw (N m, in the sense of rotation) at a crank angle (rad): gas and inertia
