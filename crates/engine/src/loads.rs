@@ -6,12 +6,13 @@
 //! of the rod; small end: speed of the pin minus that of the rod; bosses: speed of the pin. Time runs with
 //! the mean speed, so the rows stand at crank angles that are mean speed times time.
 //!
-//! The pin's mass counts as the piston's: its own inertia force, which the small end alone does not carry
-//! between pin and piston, is left in the load of the bosses.
+//! The pin's mass is part of the piston's: the inertia force of the pin itself, which goes from the rod
+//! through the small end only, is left in the load of the bosses too.
 
-use crate::mains::{ShaftForce, determinate_main_loads, unbalance_forces};
+use crate::mains::{determinate_main_loads, unbalance_forces};
 use crate::{
     BearingDuty, CrankMotion, CrankTrain, CylinderInstant, IndicatorDiagram, PinSpeed, Role,
+    ShaftForce,
 };
 use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 

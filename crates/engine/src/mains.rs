@@ -7,16 +7,7 @@
 //! continuous shaft, unequal supports or clearances do to the shares, this model does not see.
 //! Reference: Cho et al., KSME Int. J. 16 (2002) 1095-1101: agreement with loads measured in cap bolts.
 
-use crate::{CrankMotion, CrankTrain, CylinderInstant, IndicatorDiagram};
-
-/// A force on a shaft.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ShaftForce {
-    /// Axial position, m.
-    pub axial: f64,
-    /// N, x and y of the engine frame.
-    pub force: [f64; 2],
-}
+use crate::{CrankMotion, CrankTrain, CylinderInstant, IndicatorDiagram, ShaftForce};
 
 /// Everything that acts on the crankshaft except its main bearings, at a crank angle (rad): the forces of
 /// the rods on their pins, cylinder by cylinder at the axial positions of their rods, then the inertia

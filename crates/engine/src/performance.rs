@@ -6,9 +6,11 @@
 //! return. Mean torque and work are Gauss sums between the kinks of the indicator diagram, to round-off
 //! for a shaft that turns evenly; the rows are values at their crank angles.
 
-use crate::harmonics::harmonics;
-use crate::mains::{ShaftForce, resultant, unbalance_forces};
-use crate::{CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, SliderCrank};
+use crate::mains::{resultant, unbalance_forces};
+use crate::{
+    CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, ShaftForce, SliderCrank,
+    harmonics,
+};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 

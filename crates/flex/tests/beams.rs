@@ -1,4 +1,5 @@
 //! Beams and frames against closed forms, and identities of any elastic body.
+#![allow(clippy::unwrap_used)]
 
 use sommerfeld_flex::{CondensedShaft, Frame, FrameError, Material, NodeLoad, Section};
 

@@ -1,4 +1,5 @@
 //! The condensed shaft against the frame it stands for.
+#![allow(clippy::unwrap_used)]
 
 use nalgebra::{DMatrix, DVector};
 use sommerfeld_flex::{CondensedShaft, Frame, Material, NodeLoad, Section};

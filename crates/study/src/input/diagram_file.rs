@@ -13,8 +13,8 @@ use sommerfeld_engine::{Closure, Convention, DiagramError, IndicatorDiagram, Sea
 /// A closing step above this share of the range is a warning: a cycle of a good measurement closes
 /// within a tenth of it.
 const CLOSING_STEP: f64 = 0.01;
-/// No engine fires above this, Pa: four times what diesels of today do.
-const HIGHEST_PRESSURE: f64 = 1e8;
+/// No engine fires above this, Pa: twice what diesels of today do.
+const HIGHEST_PRESSURE: f64 = 5e7;
 /// A peak below this, Pa, is no engine at work but a column in another unit.
 const LOW_PEAK: f64 = 5e5;
 /// Throttled engines draw at 0.2 bar and above; a diagram far below is gauge, Pa.

@@ -131,7 +131,7 @@ fn kind(kind: &Kind) -> String {
         Kind::QuantityOrLaw(dimension, _) => format!("{}, or a table", units(dimension)),
         Kind::Pair(dimension, _) => format!("[x, y], each {}", units(dimension)),
         Kind::List(dimension, _) => format!("one, or a list, each {}", units(dimension)),
-        Kind::Integers(..) => "a list of whole numbers".into(),
+        Kind::Integers(..) => "a whole number, or a list of them".into(),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
         Kind::Choice(built, planned) => {

@@ -93,10 +93,10 @@ fn plain(kind: &Kind) -> Value {
             quantity(dimension),
             { "type": "array", "items": quantity(dimension), "minItems": 1 },
         ]}),
-        Kind::Integers(low, high) => json!({
-            "type": "array", "minItems": 1,
-            "items": { "type": "integer", "minimum": low, "maximum": high },
-        }),
+        Kind::Integers(low, high) => {
+            let one = json!({ "type": "integer", "minimum": low, "maximum": high });
+            json!({ "anyOf": [one, { "type": "array", "minItems": 1, "items": one }] })
+        }
         Kind::Grid => {
             let [around, axial] = GRID_LIMITS
                 .map(|[low, high]| json!({ "type": "integer", "minimum": low, "maximum": high }));

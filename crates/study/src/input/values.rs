@@ -156,6 +156,9 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
         (Kind::List(dimension, range), DeValue::String(text)) => {
             quantity(text, dimension, range).map(|one| Value::List(vec![one]))
         }
+        (Kind::Integers(low, high), DeValue::Integer(_)) => {
+            whole_number(value, low, high).map(|one| Value::Integers(vec![one]))
+        }
         (Kind::Integers(low, high), DeValue::Array(list)) => {
             whole_numbers(list, low, high).map(Value::Integers)
         }
