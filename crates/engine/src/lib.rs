@@ -35,7 +35,7 @@ mod torsion;
 
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
-pub use cylinder::CylinderInstant;
+pub use cylinder::{CylinderInstant, WorkingCylinder};
 pub use diagram::{Gas, IndicatorDiagram};
 pub use duty::{BearingDuty, Role};
 pub use harmonics::harmonics;
