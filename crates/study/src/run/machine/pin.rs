@@ -1,19 +1,19 @@
 //! How fast does a piston pin turn that floats in rod and piston?
 //!
 //! So that the friction torques of its two films cancel at every crank angle
-//! ([`balanced_pin_speeds`]). The films change with the speed: orbits and balance take turns, with the
-//! mean of the old and the new speeds, until these stay.
+//! ([`PinBalance`]). The films change with the speed: orbits and balance take turns until the torques
+//! cancel.
 
 use super::units::{BearingFound, UnitFound, solve_alone};
 use super::{ProgressCallback, RunError, Work};
 use crate::progress::ProgressEvent;
 use sommerfeld_bearing::LoadCycle;
-use sommerfeld_engine::{PinSpeed, balanced_pin_speeds};
+use sommerfeld_engine::{PinBalance, PinSpeed};
 use sommerfeld_film::Outcome;
 
 /// Turns of orbits and balance at most.
 const LARGEST_PASSES: usize = 8;
-/// The speeds stay when they change by less, over the largest speed of the rod.
+/// The torques cancel when less of them is left, over the largest torque.
 const TOLERANCE: f64 = 0.01;
 
 /// The orbits of small end and piston boss, in this order, with the speed of the pin that balances them.
@@ -37,20 +37,18 @@ pub(super) fn solve_pin(
         let mut in_rod = solve_alone(work, speed, films[0], rod, &mut |event| share(0, event))?;
         let mut in_boss = solve_alone(work, speed, films[1], boss, &mut |event| share(1, event))?;
         pass += 1;
-        let balanced = balanced_pin_speeds(&in_rod.orbit, &in_boss.orbit);
-        let Some(balanced) = balanced.map(|rows| PinSpeed::Tables(vec![rows])) else {
+        let Some(balance) = PinBalance::of(&in_rod.orbit, &in_boss.orbit) else {
             return Ok(vec![in_rod, in_boss]);
         };
-        let (mean, change) = moved(&cycles, &balanced);
-        if change < TOLERANCE {
+        if balance.residual < TOLERANCE {
             return Ok(vec![in_rod, in_boss]);
         }
         if pass == LARGEST_PASSES {
             let note = format!(
-                "{}: not converged, the speed of the floating pin still changes by {:.1} % of that \
-                 of the rod after {pass} passes",
+                "{}: not converged, {:.1} % of the friction torque on the floating pin is not balanced \
+                 after {pass} passes",
                 work.place(speed, films[0]),
-                100.0 * change
+                100.0 * balance.residual
             );
             in_rod.notes.push(note);
             for found in [&mut in_rod, &mut in_boss] {
@@ -58,7 +56,7 @@ pub(super) fn solve_pin(
             }
             return Ok(vec![in_rod, in_boss]);
         }
-        cycles = mean;
+        set_pin_speeds(&mut cycles, &PinSpeed::Tables(vec![balance.speeds]));
     }
 }
 
@@ -69,22 +67,13 @@ fn mark(found: &mut BearingFound) {
     }
 }
 
-/// The load cycles of rod and boss with the mean of their speed of the pin and the balanced one, and
-/// the largest distance of both over the largest speed of the rod.
-fn moved(cycles: &[LoadCycle; 2], balanced: &PinSpeed) -> ([LoadCycle; 2], f64) {
-    let mut mean = cycles.clone();
-    let [in_rod, in_boss] = &mut mean;
-    let (mut change, mut fastest) = (0.0_f64, 0.0_f64);
+/// Gives the load cycles of rod and boss other speeds of the pin; the rod swings as before.
+fn set_pin_speeds([in_rod, in_boss]: &mut [LoadCycle; 2], speeds: &PinSpeed) {
     for (rod_row, boss_row) in in_rod.points.iter_mut().zip(&mut in_boss.points) {
-        let pin = boss_row.journal_speed;
-        let rod = pin - rod_row.journal_speed;
-        let due = balanced.at(0, boss_row.crank_angle, in_boss.period, rod);
-        change = change.max((due - pin).abs());
-        fastest = fastest.max(rod.abs());
-        boss_row.journal_speed = 0.5 * (pin + due);
+        let rod = boss_row.journal_speed - rod_row.journal_speed;
+        boss_row.journal_speed = speeds.at(0, boss_row.crank_angle, in_boss.period, rod);
         rod_row.journal_speed = boss_row.journal_speed - rod;
     }
-    (mean, change / fastest.max(f64::MIN_POSITIVE))
 }
 
 #[cfg(test)]
@@ -112,13 +101,11 @@ mod tests {
 
     #[test]
     fn both_films_see_the_same_rod_before_and_after() {
-        // Rod at 4 and -4, pin at 2 and 0; balanced at 1 and -1.
-        let cycles = [cycle([-2.0, 4.0]), cycle([2.0, 0.0])];
-        let balanced = PinSpeed::Tables(vec![vec![[0.0, 1.0], [1.0, -1.0]]]);
-        let ([in_rod, in_boss], change) = moved(&cycles, &balanced);
-        assert_eq!(change, 0.25);
-        let speeds = |cycle: &LoadCycle| [0, 1].map(|at| cycle.points[at].journal_speed);
-        assert_eq!(speeds(&in_boss), [1.5, -0.5]);
-        assert_eq!(speeds(&in_rod), [-2.5, 3.5]);
+        // Rod at 4 and -4, pin at 2 and 0; then at 1 and -1.
+        let mut cycles = [cycle([-2.0, 4.0]), cycle([2.0, 0.0])];
+        let other = PinSpeed::Tables(vec![vec![[0.0, 1.0], [1.0, -1.0]]]);
+        set_pin_speeds(&mut cycles, &other);
+        let speeds = cycles.map(|cycle| [0, 1].map(|at| cycle.points[at].journal_speed));
+        assert_eq!(speeds, [[-3.0, 3.0], [1.0, -1.0]]);
     }
 }
