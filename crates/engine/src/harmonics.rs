@@ -3,8 +3,7 @@
 use crate::Harmonic;
 use std::f64::consts::TAU;
 
-/// Highest order that is told: what torsional vibration commonly asks for (Ker Wilson, Practical Solution
-/// of Torsional Vibration Problems, 1963, lists engines to order 12).
+/// Highest order that is told: torsional vibration rarely asks for more.
 const HIGHEST_ORDER: f64 = 12.0;
 
 /// Harmonics of `samples` over `period` (rad of crank angle), from the lowest to order 12 or to what the
