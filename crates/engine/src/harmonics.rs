@@ -3,7 +3,8 @@
 use crate::Harmonic;
 use std::f64::consts::TAU;
 
-/// Highest order that is told: torsional vibration rarely asks for more.
+/// Highest order that is told: what torsional vibration commonly asks for (Ker Wilson, Practical Solution
+/// of Torsional Vibration Problems, 1963, lists engines to order 12).
 const HIGHEST_ORDER: f64 = 12.0;
 
 /// Harmonics of `samples` over `period` (rad of crank angle), from the lowest to order 12 or to what the
