@@ -139,11 +139,11 @@ fn forces_of_a_rod_with_any_inertia_balance() {
         let across = -x * pin[1] - y * (slider.piston_acceleration - pin[0]);
         let turning = across / l;
         let scale = 1e4;
-        for axis in 0..2 {
+        for (axis, acceleration) in centre.iter().enumerate() {
             let on_rod = -forces.big_end[axis] - forces.small_end[axis];
             close(
                 on_rod / scale,
-                rod.mass * centre[axis] / scale,
+                rod.mass * acceleration / scale,
                 1e-12,
                 "rod force",
             );
