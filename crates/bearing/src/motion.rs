@@ -47,11 +47,7 @@ pub fn length(displacement: Coordinates, arm: f64) -> f64 {
 
 /// The state with other coordinates and rates.
 #[must_use]
-pub fn with_motion(
-    frame: &JournalState,
-    position: Coordinates,
-    rate: Coordinates,
-) -> JournalState {
+pub fn with_motion(frame: &JournalState, position: Coordinates, rate: Coordinates) -> JournalState {
     JournalState {
         position: [position[0], position[1]],
         tilt: [position[2], position[3]],
