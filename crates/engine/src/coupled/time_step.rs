@@ -203,7 +203,12 @@ impl Stepper<'_> {
             .map(|(journal, place)| place.update(trial.states[journal], Step::Steady, crank_angle))
             .collect();
         for (journal, answer) in stale.into_iter().zip(answers(updates, self.executor)) {
-            trial.linearised[journal] = answer?;
+            match answer {
+                Ok(linearised) => trial.linearised[journal] = linearised,
+                // So close to contact what the film said last stands.
+                Err(FilmError::Contact { .. }) => {}
+                Err(error) => return Err(error),
+            }
         }
         Ok(())
     }
