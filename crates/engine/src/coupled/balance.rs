@@ -43,7 +43,7 @@ pub(super) struct Limits {
     pub iterations: usize,
     /// Residual over the force scale.
     pub residual: f64,
-    /// Next step over the smallest gap.
+    /// Error of the positions over the smallest gap.
     pub step: f64,
     /// Largest share of the smallest gap that one step may take.
     pub gap_loss: f64,
@@ -51,6 +51,19 @@ pub(super) struct Limits {
     /// less than the step tolerance. Not for films with history, whose content belongs to the position
     /// they were asked at.
     pub takes_last_step: bool,
+}
+
+impl Limits {
+    /// Largest last step over the smallest gap. Taken without another update, it leaves an error of
+    /// the order of its square: films resist with about h^-3, so that twice the square bounds it, and a
+    /// film may have moved by two such steps since its update.
+    fn last_step(&self) -> f64 {
+        if self.takes_last_step {
+            (self.step / 8.0).sqrt()
+        } else {
+            self.step
+        }
+    }
 }
 
 /// What Newton found.
@@ -62,6 +75,8 @@ pub(super) struct Balanced {
     pub linearised: Vec<Linearised>,
     /// What the shaft puts on each journal: force (N), moment (N m).
     pub loads: Vec<[f64; 4]>,
+    /// How far each journal moved since the last update of its film, over its gap.
+    pub moved: Vec<f64>,
     pub outcome: Outcome,
 }
 
@@ -192,7 +207,7 @@ impl Balance<'_, '_> {
                 let here = place.seen(newton.positions[journal]);
                 let moved = place.length(add(here, -1.0, film.at));
                 let small = if self.limits.takes_last_step {
-                    self.limits.step * film.gap.abs()
+                    self.limits.last_step() * film.gap.abs()
                 } else {
                     0.0
                 };
@@ -382,7 +397,7 @@ impl Balance<'_, '_> {
                 .map(|((place, film), step)| place.length(*step) / film.gap.abs())
                 .fold(0.0, f64::max);
             let settled = films.iter().all(|film| film.linearised.settled);
-            if settled && size <= self.limits.residual && relative_step <= self.limits.step {
+            if settled && size <= self.limits.residual && relative_step <= self.limits.last_step() {
                 return Ok(self.finished(places, &newton.positions, &films, &step));
             }
             let share = self.allowed_share(places, &newton.positions, &step);
@@ -408,16 +423,26 @@ impl Balance<'_, '_> {
         let loads = each()
             .map(|((place, film), end)| film.force(place.seen(*end)).map(|value| -value))
             .collect();
+        let moved = each()
+            .map(|((place, film), end)| {
+                place.length(add(place.seen(*end), -1.0, film.at)) / film.gap.abs()
+            })
+            .collect();
         let (positions, linearised) = if self.limits.takes_last_step {
-            let moved = each().map(|((place, film), end)| film.moved_to(place.seen(*end)));
-            let moved = moved.collect();
-            (ends, moved)
+            let there = each().map(|((place, film), end)| film.moved_to(place.seen(*end)));
+            let there = there.collect();
+            (ends, there)
         } else {
             let kept = films.iter().map(|film| film.linearised).collect();
             (positions.to_vec(), kept)
         };
         Balanced {
             states: self.states(places, &positions),
+            moved: if self.limits.takes_last_step {
+                moved
+            } else {
+                vec![0.0; places.len()]
+            },
             positions,
             linearised,
             loads,
@@ -461,6 +486,7 @@ impl Balance<'_, '_> {
             positions: again.positions,
             linearised,
             loads,
+            moved: vec![0.0; places.len()],
             outcome: again.cause,
         })
     }

@@ -207,7 +207,8 @@ impl<'a> Run<'a> {
             force_scale: force_scale.max(f64::MIN_POSITIVE),
             limits: Limits {
                 iterations: settings.iteration_limit,
-                residual: 1e-3,
+                // The last step lets it fall with its square.
+                residual: if has_history { 1e-3 } else { 1e-2 },
                 step: if has_history {
                     settings.history_newton_tolerance
                 } else {
@@ -337,7 +338,7 @@ impl<'a> Run<'a> {
             } else {
                 self.substeps.is_last()
             };
-            let trial = if solved {
+            let mut trial = if solved {
                 trial
             } else {
                 self.failed_since = true;
@@ -355,6 +356,7 @@ impl<'a> Run<'a> {
             let mut stopped = None;
             if shows || (at_end && !is_published) {
                 is_published = true;
+                self.stepper.refresh(&mut trial)?;
                 stopped = self.publish_step(&trial, number, observer);
             }
             for place in &mut self.stepper.places {

@@ -49,7 +49,7 @@ pub(super) fn settled(
         .max(unloaded(stepper, crank_angle, &positions)?);
     let usual = stepper.limits;
     stepper.limits.residual = 1e-3;
-    stepper.limits.step = 1e-2;
+    stepper.limits.step = 1e-4;
     let mut turned = FIRST_STEP;
     for _ in 0..LARGEST_STEPS {
         let stage = Stage {
@@ -126,6 +126,7 @@ pub(super) fn filled(
         states: Vec::new(),
         linearised: Vec::new(),
         loads: Vec::new(),
+        moved: vec![0.0; start.positions.len()],
         unbalance: 0.0,
         error: 0.0,
         outcome: Outcome::Converged,

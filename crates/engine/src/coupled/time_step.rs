@@ -8,7 +8,7 @@
 //! and count in no error.
 
 use super::balance::{Balance, Balanced, Limits, Stage};
-use super::film_update::{FilmExecutor, Place};
+use super::film_update::{FilmExecutor, Place, answers};
 use super::shaft::Structure;
 use sommerfeld_bearing::motion::{
     Coordinates, DIAGONAL, ERROR_WEIGHTS, FIRST_STAGE, WEIGHT, add, coordinates,
@@ -39,7 +39,9 @@ pub(super) struct Trial {
     pub linearised: Vec<Linearised>,
     /// What the shaft puts on each journal: force (N), moment (N m).
     pub loads: Vec<[f64; 4]>,
-    /// Sum of these less that of the given forces, N.
+    /// How far each journal moved since the last update of its film, over its gap.
+    pub moved: Vec<f64>,
+    /// Sum of the loads less that of the given forces, N.
     pub unbalance: f64,
     /// Largest estimated error of a position over the smallest gap there.
     pub error: f64,
@@ -58,6 +60,9 @@ pub(super) struct Stepper<'a> {
     pub limits: Limits,
     pub has_history: bool,
 }
+
+/// The film of a point belongs to a position within this share of the gap from that of the journal.
+const FIELD_ACCURACY: f64 = 1e-4;
 
 /// `a + factor b` for every journal.
 pub(super) fn add_all(a: &[Coordinates], factor: f64, b: &[Coordinates]) -> Vec<Coordinates> {
@@ -185,6 +190,29 @@ impl Stepper<'_> {
         Ok(trial)
     }
 
+    /// Updates the films that are to be shown and were last updated elsewhere.
+    pub(super) fn refresh(&mut self, trial: &mut Trial) -> Result<(), FilmError> {
+        let is_stale = |journal: &usize| trial.moved[*journal] > FIELD_ACCURACY;
+        let stale: Vec<usize> = (0..self.places.len()).filter(is_stale).collect();
+        let crank_angle = trial.end.crank_angle;
+        let updates = self
+            .places
+            .iter_mut()
+            .enumerate()
+            .filter(|(journal, _)| stale.binary_search(journal).is_ok())
+            .map(|(journal, place)| place.update(trial.states[journal], Step::Steady, crank_angle))
+            .collect();
+        for (journal, answer) in stale.into_iter().zip(answers(updates, self.executor)) {
+            match answer {
+                Ok(linearised) => trial.linearised[journal] = linearised,
+                // So close to contact what the film said last stands.
+                Err(FilmError::Contact { .. }) => {}
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(())
+    }
+
     /// The balance of a stage, from a guess that keeps the gaps of safe positions open, and what is
     /// missing in the sum of the loads, N.
     pub(super) fn solve(
@@ -252,6 +280,7 @@ fn trial(
         states: balanced.states,
         linearised: balanced.linearised,
         loads: balanced.loads,
+        moved: balanced.moved,
         unbalance,
         error: 0.0,
         outcome: balanced.outcome,
