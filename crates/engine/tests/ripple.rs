@@ -229,8 +229,9 @@ fn ripple_of_an_elastic_engine_is_that_of_its_equation_in_time() {
     let slope = |[throw, wheel, throw_rate, wheel_rate]: [f64; 4]| {
         let (inertia, swing) = inertia(&train, throw);
         let link = stiffness * (throw - wheel) + damping * (throw_rate - wheel_rate);
-        let driving = gas(throw) - 0.5 * swing * throw_rate * throw_rate - 0.05 * throw_rate - link;
-        let driven = link - 1.5 * wheel_rate - load;
+        let driving =
+            gas(throw) - 0.5 * swing * throw_rate * throw_rate - 0.05 * (throw_rate - speed) - link;
+        let driven = link - 1.5 * (wheel_rate - speed) - load;
         [
             throw_rate,
             wheel_rate,
