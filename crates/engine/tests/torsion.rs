@@ -2,7 +2,9 @@
 //! balances of torque and power.
 #![allow(clippy::unwrap_used)]
 
-use sommerfeld_engine::{Disc, Harmonic, TorsionalChain, TorsionalLink, delayed};
+use sommerfeld_engine::{
+    Damper, DamperTask, Disc, Harmonic, TorsionalChain, TorsionalLink, delayed,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Quantity, number, value as printed.
@@ -342,7 +344,7 @@ impl InTime<'_> {
 /// twist and torque at every instant as the sum over the orders.
 #[test]
 fn vibration_by_orders_is_the_vibration_in_time() {
-    let mut chain = inline_six().with_damper(&sommerfeld_engine::Damper::viscous(0.12, 90.0));
+    let mut chain = inline_six().with_damper(&Damper::viscous(0.12, 90.0));
     for link in &mut chain.links[1..] {
         (link.damping, link.loss_factor) = (12.0, 0.0);
     }
@@ -401,4 +403,77 @@ fn vibration_by_orders_is_the_vibration_in_time() {
             "{which}: {apart} of {largest}"
         );
     }
+}
+
+/// The ring comes first and the hub sits on the nose. On the inline six, driven by its order 6 at every
+/// throw in phase with the first mode, neither more nor less damping of the best damper does better,
+/// and the ring without oil between does far worse.
+#[test]
+fn the_best_damper_of_the_inline_six_has_no_better_neighbour() {
+    let damper = Damper {
+        hub_inertia: 0.01,
+        ..Damper::rubber(0.09, 9e4, 0.2)
+    };
+    let chain = inline_six().with_damper(&damper);
+    assert_eq!((chain.discs.len(), chain.links.len()), (10, 9));
+    assert_eq!(
+        (chain.discs[0].inertia, chain.discs[1].inertia),
+        (0.09, 0.01 + 0.0170)
+    );
+    assert_eq!(
+        (chain.links[0].stiffness, chain.discs[3].throw),
+        (9e4, Some(0))
+    );
+    assert!((damper.frequency() - 1000.0 / TAU).abs() < 1e-10);
+
+    let mode = inline_six().natural_vibration().unwrap().modes[1].clone();
+    let task = DamperTask {
+        chain: inline_six(),
+        torques: (0..9)
+            .map(|disc| {
+                if (2..8).contains(&disc) {
+                    100.0 * mode[disc]
+                } else {
+                    0.0
+                }
+            })
+            .collect(),
+        band: [100.0 * TAU, 350.0 * TAU],
+    };
+    let viscous = task.best_viscous(0.1).unwrap();
+    let rubber = task.best_rubber(0.1).unwrap();
+    assert!(rubber.peak < viscous.peak, "{rubber:?}, {viscous:?}");
+    assert!(viscous.peak < 0.5 * task.peak(&Damper::viscous(0.1, 1e-3)).unwrap());
+    for factor in [0.98, 1.02] {
+        let mut other = viscous.damper;
+        other.link.damping *= factor;
+        assert!(task.peak(&other).unwrap() > viscous.peak);
+        let mut other = rubber.damper;
+        other.link.stiffness *= factor;
+        assert!(task.peak(&other).unwrap() > rubber.peak);
+        let mut other = rubber.damper;
+        other.link.loss_factor *= factor;
+        assert!(task.peak(&other).unwrap() > rubber.peak);
+    }
+}
+
+#[test]
+fn a_throw_drives_one_disc() {
+    let mut chain = inline_six();
+    chain.discs[4].throw = Some(5);
+    let error = chain
+        .forced_response(100.0, &torques())
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        error,
+        "throw 3 drives 0 discs of the torsional chain and has 1 torques: one of each is due"
+    );
+    chain.discs[4].throw = Some(2);
+    chain.discs[1].throw = Some(5);
+    let error = chain
+        .forced_response(100.0, &torques())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("throw 6 drives 2 discs"), "{error}");
 }
