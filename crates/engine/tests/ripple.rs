@@ -3,8 +3,9 @@
 #![allow(clippy::unwrap_used)]
 
 use sommerfeld_engine::{
-    CrankMotion, CrankTrain, Cylinder, Disc, EngineLayout, Harmonic, RippleSettings, Rod,
-    SettledRipple, Strokes, Throw, TorsionalChain, TorsionalLink, harmonics, settle_ripple,
+    CrankMotion, CrankTrain, Cylinder, Disc, EngineLayout, Harmonic, IndicatorDiagram, LayoutKind,
+    LayoutPlan, RippleSettings, Rod, SettledRipple, Strokes, Throw, TorsionResponse,
+    TorsionalChain, TorsionalLink, Twist, engine_ripple, harmonics, settle_ripple, throw_torques,
 };
 use sommerfeld_film::Outcome;
 use std::f64::consts::TAU;
@@ -229,8 +230,9 @@ fn ripple_of_an_elastic_engine_is_that_of_its_equation_in_time() {
     let slope = |[throw, wheel, throw_rate, wheel_rate]: [f64; 4]| {
         let (inertia, swing) = inertia(&train, throw);
         let link = stiffness * (throw - wheel) + damping * (throw_rate - wheel_rate);
-        let driving = gas(throw) - 0.5 * swing * throw_rate * throw_rate - 0.05 * throw_rate - link;
-        let driven = link - 1.5 * wheel_rate - load;
+        let driving =
+            gas(throw) - 0.5 * swing * throw_rate * throw_rate - 0.05 * (throw_rate - speed) - link;
+        let driven = link - 1.5 * (wheel_rate - speed) - load;
         [
             throw_rate,
             wheel_rate,
@@ -332,7 +334,7 @@ fn mean_inertia_of_a_slider_is_that_of_its_masses() {
     );
 }
 
-/// The inertia torque of the loads and the inertia here are two derivations of one thing. Torques that
+/// Torques that
 /// do not ask for the motion settle in the step that confirms them.
 #[test]
 fn torques_that_do_not_depend_on_the_motion_settle_at_once() {
@@ -386,5 +388,148 @@ fn torques_that_do_not_depend_on_the_motion_settle_at_once() {
     assert!(
         short.to_string().contains("mean inertias: 0 given, 1 due"),
         "{short}"
+    );
+}
+
+/// The torque of exact loads is Newton and Euler's, the inertia here comes of the kinetic energy: at
+/// equal place and speed another acceleration takes `J` times as much torque.
+#[test]
+fn inertia_of_the_energy_is_the_inertia_of_the_loads() {
+    let train = train();
+    let none = IndicatorDiagram {
+        points: vec![[0.0, 1e5]],
+        period: 2.0 * TAU,
+    };
+    // At a = 0: twist and slope of the sine and the cosine below vanish, the second derivative does not.
+    let with = |size: f64| {
+        let of = |order: f64, cos: f64| Harmonic {
+            order,
+            cos,
+            sin: 0.0,
+        };
+        let twist = Twist {
+            harmonics: vec![of(1.0, size), of(2.0, -size)],
+        };
+        CrankMotion {
+            speed: 200.0,
+            twists: vec![(0.0, twist)],
+        }
+    };
+    for turned in [0.3, 1.2, 2.5, 4.9] {
+        let mut train = train.clone();
+        train.layout.throws[0].angle = turned;
+        let torque = |size| throw_torques(&train, &none, &with(size), 0.0)[0];
+        let acceleration = 3.0 * 0.01 * 200.0 * 200.0;
+        let inertia = (torque(0.0) - torque(0.01)) / acceleration;
+        assert!(
+            (inertia / train.slider_inertia(turned) - 1.0).abs() < 1e-11,
+            "{turned}: {inertia}"
+        );
+    }
+}
+
+/// An inline six at the speed where order 6 meets its first frequency, lightly damped: what settles
+/// gives itself back once more, and differs from the vibration of even speed.
+#[test]
+fn ripple_settles_in_a_resonance() {
+    let mut train = train();
+    let order = [1, 5, 3, 6, 2, 4];
+    train.layout = EngineLayout::new(&LayoutPlan {
+        kind: LayoutKind::Inline,
+        cylinders: 6,
+        firing_order: order.to_vec(),
+        firing_intervals: None,
+        throw_angles: None,
+        cylinder_spacing: 0.13,
+        rod_offset: 0.0,
+        main_positions: None,
+        strokes: Strokes::Four,
+    })
+    .unwrap();
+    let mean = train.mean_slider_inertias()[0];
+    let disc = |inertia, throw| Disc {
+        inertia,
+        damping: 0.3,
+        throw,
+    };
+    let mut discs: Vec<Disc> = (0..6).map(|throw| disc(0.02 + mean, Some(throw))).collect();
+    discs.insert(0, disc(0.02, None));
+    discs.push(disc(1.5, None));
+    let link = TorsionalLink {
+        stiffness: 9e5,
+        damping: 0.0,
+        loss_factor: 0.02,
+    };
+    let chain = TorsionalChain {
+        links: vec![link; discs.len() - 1],
+        discs,
+    };
+    let points = (0..720).map(|row| (f64::from(row) - 360.0).to_radians());
+    let pressure = |a: f64| 1e5 + 8e6 * (((0.5 * (a - 0.2)).cos() - 1.0) * 25.0).exp();
+    let diagram = IndicatorDiagram {
+        points: points.map(|a| [a, pressure(a)]).collect(),
+        period: 2.0 * TAU,
+    };
+
+    let frequency = chain.natural_vibration().unwrap().frequencies[1];
+    let speed = frequency * TAU / 6.0;
+    let settings = RippleSettings::default();
+    let run =
+        |settings| engine_ripple(&train, &diagram, &chain, speed, 720, 12.0, settings).unwrap();
+    let settled = run(settings);
+    assert_eq!(
+        settled.outcome,
+        Outcome::Converged,
+        "{} after {}",
+        settled.change,
+        settled.iterations
+    );
+    assert!(settled.iterations < 20, "{}", settled.iterations);
+
+    // Written out once more: torques of the settled motion, with the mean inertia given back.
+    let table: Vec<Vec<f64>> = (0..720)
+        .map(|row| {
+            throw_torques(
+                &train,
+                &diagram,
+                &settled.motion,
+                2.0 * TAU * f64::from(row) / 720.0,
+            )
+        })
+        .collect();
+    let given_back = |throw: usize, row: usize| {
+        let angle = 2.0 * TAU * row as f64 / 720.0;
+        let axial = train.layout.throws[throw].axial;
+        table[row][throw] + mean * settled.motion.at(axial, angle).acceleration
+    };
+    let torques: Vec<Vec<Harmonic>> = (0..6)
+        .map(|throw| {
+            let values: Vec<f64> = (0..720).map(|row| given_back(throw, row)).collect();
+            harmonics(&values, 2.0, 12.0)
+        })
+        .collect();
+    let again = chain.forced_response(speed, &torques).unwrap();
+    let even = run(RippleSettings {
+        maximum_iterations: 1,
+        ..settings
+    });
+    let nose = |response: &TorsionResponse, order: f64| {
+        let harmonics = &response.twists[0].harmonics;
+        let one = harmonics.iter().find(|one| one.order == order).unwrap();
+        [one.cos, one.sin]
+    };
+    let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let size = apart(nose(&settled.response, 6.0), [0.0; 2]);
+    assert!(size > 1e-3, "no resonance: {size} rad");
+    for order in [0.5, 3.0, 6.0, 8.0] {
+        let moved = apart(nose(&again, order), nose(&settled.response, order));
+        assert!(moved < 1e-7 * size, "order {order}: {moved} rad of {size}");
+    }
+    assert_eq!(settled.motion.twists.len(), 6);
+    // The resonance itself hardly moves; it reaches the other orders through the swing of the inertia.
+    let [first, last] = [&even.response, &settled.response].map(|response| nose(response, 0.5));
+    assert!(
+        apart(first, last) > 0.2 * apart(first, [0.0; 2]),
+        "{first:?}, {last:?}"
     );
 }

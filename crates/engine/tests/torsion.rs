@@ -2,7 +2,9 @@
 //! balances of torque and power.
 #![allow(clippy::unwrap_used)]
 
-use sommerfeld_engine::{Disc, Harmonic, TorsionalChain, TorsionalLink, delayed};
+use sommerfeld_engine::{
+    Damper, DamperTask, Disc, Harmonic, TorsionalChain, TorsionalLink, delayed,
+};
 use std::f64::consts::{PI, TAU};
 
 /// Quantity, number, value as printed.
@@ -116,10 +118,10 @@ fn torque_and_power_are_balanced() {
     );
 
     let given: f64 = torques.iter().map(|torque| torque[0].cos).sum();
-    let taken = response.load_torque + 6.0 * 2.0 * speed;
     assert!(
-        (taken / given - 1.0).abs() < 1e-13,
-        "{given} N m given, {taken} taken"
+        (response.load_torque / given - 1.0).abs() < 1e-13,
+        "{given} N m given, {} taken",
+        response.load_torque
     );
     let last = response.link_torques[7].harmonics[0];
     assert_eq!((last.order, last.cos), (0.0, response.load_torque));
@@ -342,7 +344,7 @@ impl InTime<'_> {
 /// twist and torque at every instant as the sum over the orders.
 #[test]
 fn vibration_by_orders_is_the_vibration_in_time() {
-    let mut chain = inline_six().with_damper(&sommerfeld_engine::Damper::viscous(0.12, 90.0));
+    let mut chain = inline_six().with_damper(&Damper::viscous(0.12, 90.0));
     for link in &mut chain.links[1..] {
         (link.damping, link.loss_factor) = (12.0, 0.0);
     }
@@ -371,31 +373,107 @@ fn vibration_by_orders_is_the_vibration_in_time() {
             [sum[0] + one.at(angle)[0], sum[1] + one.at(angle)[1]]
         })
     };
+    // Twist and torque of each link and speed of the flywheel, by orders and in time; the twist of the
+    // ring on its oil is the one that time does not settle.
+    let mut pairs = vec![Vec::new(); 2 * chain.links.len() + 1];
     for (at, row) in rows.iter().enumerate().step_by(225) {
         let angle = 4.0 * PI * at as f64 / f64::from(steps);
-        for link in 0..chain.links.len() {
-            let [one, other] = [link, link + 1].map(|disc| vibration(disc, angle));
-            let difference = row[link] - row[link + 1];
-            let rate = row[chain.discs.len() + link] - row[chain.discs.len() + link + 1];
-            // Against the size of the whole: the twist between nose and flywheel is a milliradian.
-            let found = one[0] - other[0];
-            if link > 0 {
-                assert!(
-                    (found - difference).abs() < 1e-9,
-                    "{angle}, link {link}: {found}, {difference}"
-                );
+        let (twists, rates) = row.split_at(chain.discs.len());
+        for (at, link) in chain.links.iter().enumerate() {
+            let [one, other] = [at, at + 1].map(|disc| vibration(disc, angle)[0]);
+            let difference = twists[at] - twists[at + 1];
+            if link.stiffness > 0.0 {
+                pairs[at].push([one - other, difference]);
             }
-            let torque: f64 = response.link_torques[link].harmonics[1..]
-                .iter()
-                .map(|one| one.at(angle)[0])
-                .sum();
-            let exact = chain.links[link].stiffness * difference + chain.links[link].damping * rate;
-            assert!(
-                (torque - exact).abs() < 1e-3,
-                "{angle}, link {link}: {torque}, {exact} N m"
-            );
+            let harmonics = &response.link_torques[at].harmonics[1..];
+            let torque: f64 = harmonics.iter().map(|one| one.at(angle)[0]).sum();
+            let passed = link.stiffness * difference + link.damping * (rates[at] - rates[at + 1]);
+            pairs[chain.links.len() + at].push([torque, passed]);
         }
-        let rate = vibration(9, angle)[1] * speed;
-        assert!((rate - row[chain.discs.len() + 9]).abs() < 1e-6 * speed);
+        pairs[2 * chain.links.len()].push([vibration(9, angle)[1] * speed, rates[9]]);
     }
+    for (which, pairs) in pairs.iter().enumerate().skip(1) {
+        let largest = pairs.iter().map(|[_, time]| time.abs()).fold(0.0, f64::max);
+        let apart = pairs
+            .iter()
+            .map(|[orders, time]| (orders - time).abs())
+            .fold(0.0, f64::max);
+        assert!(
+            pairs.len() == 41 && apart < 1e-6 * largest,
+            "{which}: {apart} of {largest}"
+        );
+    }
+}
+
+/// The ring comes first and the hub sits on the nose. On the inline six, driven by its order 6 at every
+/// throw in phase with the first mode, neither more nor less damping of the best damper does better,
+/// and the ring without oil between does far worse.
+#[test]
+fn the_best_damper_of_the_inline_six_has_no_better_neighbour() {
+    let damper = Damper {
+        hub_inertia: 0.01,
+        ..Damper::rubber(0.09, 9e4, 0.2)
+    };
+    let chain = inline_six().with_damper(&damper);
+    assert_eq!((chain.discs.len(), chain.links.len()), (10, 9));
+    assert_eq!(
+        (chain.discs[0].inertia, chain.discs[1].inertia),
+        (0.09, 0.01 + 0.0170)
+    );
+    assert_eq!(
+        (chain.links[0].stiffness, chain.discs[3].throw),
+        (9e4, Some(0))
+    );
+    assert!((damper.frequency() - 1000.0 / TAU).abs() < 1e-10);
+
+    let mode = inline_six().natural_vibration().unwrap().modes[1].clone();
+    let task = DamperTask {
+        chain: inline_six(),
+        torques: (0..9)
+            .map(|disc| {
+                if (2..8).contains(&disc) {
+                    100.0 * mode[disc]
+                } else {
+                    0.0
+                }
+            })
+            .collect(),
+        band: [100.0 * TAU, 350.0 * TAU],
+    };
+    let viscous = task.best_viscous(0.1).unwrap();
+    let rubber = task.best_rubber(0.1).unwrap();
+    assert!(rubber.peak < viscous.peak, "{rubber:?}, {viscous:?}");
+    assert!(viscous.peak < 0.5 * task.peak(&Damper::viscous(0.1, 1e-3)).unwrap());
+    for factor in [0.98, 1.02] {
+        let mut other = viscous.damper;
+        other.link.damping *= factor;
+        assert!(task.peak(&other).unwrap() > viscous.peak);
+        let mut other = rubber.damper;
+        other.link.stiffness *= factor;
+        assert!(task.peak(&other).unwrap() > rubber.peak);
+        let mut other = rubber.damper;
+        other.link.loss_factor *= factor;
+        assert!(task.peak(&other).unwrap() > rubber.peak);
+    }
+}
+
+#[test]
+fn a_throw_drives_one_disc() {
+    let mut chain = inline_six();
+    chain.discs[4].throw = Some(5);
+    let error = chain
+        .forced_response(100.0, &torques())
+        .unwrap_err()
+        .to_string();
+    assert_eq!(
+        error,
+        "throw 3 drives 0 discs of the torsional chain and has 1 torques: one of each is due"
+    );
+    chain.discs[4].throw = Some(2);
+    chain.discs[1].throw = Some(5);
+    let error = chain
+        .forced_response(100.0, &torques())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("throw 6 drives 2 discs"), "{error}");
 }

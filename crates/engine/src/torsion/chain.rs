@@ -19,7 +19,8 @@ pub struct TorsionalChain {
 pub struct Disc {
     /// Moment of inertia, kg m2; for a throw with the mean of what pistons and rods add.
     pub inertia: f64,
-    /// Damping against ground, N m s/rad.
+    /// Damping against the even turning of the shaft ("absolute damping"), N m s/rad. It stands for
+    /// what quietens vibration at a throw; it takes nothing from the mean torque.
     pub damping: f64,
     /// The throw that drives it, if any.
     pub throw: Option<usize>,

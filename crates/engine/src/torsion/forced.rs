@@ -4,7 +4,7 @@
 //! mean speed `W` the frequency is `w = n W` and `(K + i H + i w C - w^2 M) x = T`. Below the first
 //! natural frequency the chain turns as one body: that motion is kept, it is the speed ripple.
 //! Order 0 needs no inertia: each link carries the mean torque of all before it.
-//! Heat: a link turns `(w^2 c + w k loss) |dx|^2 / 2` into heat, damping against ground
+//! Heat: a link turns `(w^2 c + w k loss) |dx|^2 / 2` into heat, the damping of a disc
 //! `w^2 c |x|^2 / 2`; their sum is the work of the excitation on the vibration.
 
 use super::chain::{Range, require_task};
@@ -36,8 +36,7 @@ pub struct TorsionResponse {
     pub link_torques: Vec<Twist>,
     /// Mean heat in each link over a cycle, W: what a damper must give off.
     pub link_heat: Vec<f64>,
-    /// Mean power that damping against ground takes from the vibration of each disc, W; what it takes
-    /// from the mean speed is not in it.
+    /// Mean power that the damping of each disc takes from its vibration, W.
     pub disc_heat: Vec<f64>,
     /// Mean torque that the load takes at the last disc, N m.
     pub load_torque: f64,
@@ -79,7 +78,7 @@ impl TorsionalChain {
                 self.add_order(&mut response, speed, order, &twists);
             } else {
                 let origin = discs.first().copied();
-                self.add_mean(&mut response, speed, &torque, origin)?;
+                self.add_mean(&mut response, &torque, origin)?;
             }
         }
         Ok(response)
@@ -138,14 +137,13 @@ impl TorsionalChain {
     fn add_mean(
         &self,
         response: &mut TorsionResponse,
-        speed: f64,
         torque: &DVector<Complex<f64>>,
         origin: Option<usize>,
     ) -> Result<(), TorsionError> {
         let mut passed = 0.0;
         let mut twists = vec![0.0; self.discs.len()];
-        for (at, disc) in self.discs.iter().enumerate() {
-            passed += torque[at].re - disc.damping * speed;
+        for at in 0..self.discs.len() {
+            passed += torque[at].re;
             let Some(link) = self.links.get(at) else {
                 continue;
             };
