@@ -15,7 +15,7 @@ use crate::{
 };
 use sommerfeld_film::Outcome;
 
-/// Error of the pressures over the peak at which halving stops.
+/// Relative error of the pressures at which halving stops.
 const TOLERANCE: f64 = 1e-9;
 /// Most halvings of the mesh.
 const HALVINGS: u32 = 9;
@@ -294,12 +294,11 @@ impl<'c> ClosedCycle<'c> {
     }
 }
 
-/// Largest difference of the pressures of two solutions over the highest of them.
+/// Largest relative difference of the pressures of two solutions.
 fn difference(coarse: &[State], fine: &[State]) -> f64 {
-    let highest = fine.iter().map(|state| state.pressure).fold(0.0, f64::max);
     let pairs = coarse.iter().zip(fine);
     pairs
-        .map(|(a, b)| (a.pressure - b.pressure).abs() / highest)
+        .map(|(a, b)| (a.pressure / b.pressure - 1.0).abs())
         .fold(0.0, f64::max)
 }
 

@@ -64,7 +64,7 @@ pub struct GeneratedCycle {
     pub mean_effective_pressure: f64,
     /// Charge at the closing of the intake, as `p V/T = m R`, J/K.
     pub charge: f64,
-    /// Estimated error of the pressures over the peak.
+    /// Estimated relative error of the pressures while the valves are closed.
     pub error: f64,
     /// Whether that met the tolerance of 1e-9.
     pub outcome: Outcome,

@@ -55,7 +55,7 @@ impl Convention {
         }
     }
 
-    fn after_firing(&self, angle: f64) -> f64 {
+    fn angle_after_firing(&self, angle: f64) -> f64 {
         let along = angle + self.shift - self.firing_tdc;
         match self.sense {
             Sense::Along => along,
@@ -118,7 +118,7 @@ impl IndicatorDiagram {
         let ambient = convention.gauge_ambient.unwrap_or(0.0);
         let mut points = Vec::with_capacity(rows.len());
         for (row, &[angle, pressure]) in rows.iter().enumerate() {
-            let point = [convention.after_firing(angle), pressure + ambient];
+            let point = [convention.angle_after_firing(angle), pressure + ambient];
             check_row(row, angle, point, points.last())?;
             points.push(point);
         }

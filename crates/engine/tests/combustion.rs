@@ -1,5 +1,5 @@
 //! Generated cycles against closed forms, an independent quadrature and the first law.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 mod printed;
 
@@ -231,7 +231,7 @@ fn work_of_the_closed_cycle_is_that_of_the_diagram() {
         cycle.closed_work
     );
     assert!(
-        whole > closed,
+        whole < closed,
         "the blow-down after the dead centre costs: {whole} {closed}"
     );
 }
@@ -330,11 +330,23 @@ fn pressures_are_continuous_over_the_whole_cycle() {
         let cycle = combustion.cycle(200.0, 7200).unwrap();
         let diagram = &cycle.diagram;
         assert_eq!(diagram.period, strokes.period());
-        let steepest = (0..7200)
-            .map(|i| f64::from(i) * diagram.period / 7200.0)
-            .map(|angle| (diagram.at(angle + 1e-4) - diagram.at(angle - 1e-4)).abs())
-            .fold(0.0, f64::max);
-        assert!(steepest < 1e-3 * cycle.peak[1], "{strokes:?} {steepest}");
+        let exchange = combustion.gas_exchange;
+        let fallen = exchange.exhaust_opens + exchange.blow_down;
+        let change = if strokes == Strokes::Four {
+            TAU
+        } else {
+            fallen
+        };
+        for angle in [
+            exchange.exhaust_opens,
+            fallen,
+            change,
+            exchange.intake_closes,
+        ] {
+            let sides = [-1.0, 1.0].map(|side| diagram.at(angle + side * 0.1 * DEGREE));
+            let step = (sides[1] / sides[0] - 1.0).abs();
+            assert!(step < 0.01, "{strokes:?} at {angle}: {sides:?}");
+        }
         let closing = combustion.gas_exchange.intake_closes;
         assert!((diagram.at(closing) - 1e5).abs() < 1e-6);
         let ascending = diagram

@@ -1,11 +1,10 @@
-//! Committed numbers with the half of their last digit.
+//! Committed numbers with their bars.
 #![allow(dead_code, clippy::unwrap_used)]
 
 /// One quantity of a reference.
 pub struct Printed {
     pub name: String,
     pub value: f64,
-    /// Half of the last printed digit.
     pub bar: f64,
 }
 
@@ -19,7 +18,7 @@ pub fn cells_of(path: &str) -> Vec<Vec<String>> {
         .collect()
 }
 
-/// Rows `quantity,value,half_last_digit,unit`.
+/// Rows `quantity,value,bar,unit`.
 pub fn rows_of(path: &str) -> Vec<Printed> {
     let printed = |row: Vec<String>| Printed {
         name: row[0].clone(),

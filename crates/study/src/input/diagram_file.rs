@@ -73,7 +73,7 @@ pub fn read_diagram(
         return Err(errors);
     }
     let ambient = settings.gauge_ambient.unwrap_or(0.0);
-    in_range(&table, ambient).map_err(|error| vec![error])?;
+    in_range(&table, ambient)?;
     let rows: Vec<[f64; 2]> = table.rows.iter().map(|row| row.values).collect();
     let convention = Convention {
         period: settings.period,
@@ -114,7 +114,7 @@ pub fn read_peaks(
         return Err(vec![error.allowing("above 0 rpm")]);
     }
     let ambient = gauge_ambient.unwrap_or(0.0);
-    in_range(&table, ambient).map_err(|error| vec![error])?;
+    in_range(&table, ambient)?;
     let peak = |row: &[f64; 2]| [row[0], row[1] + ambient];
     let peaks: Vec<[f64; 2]> = table.rows.iter().map(|row| peak(&row.values)).collect();
     match table
@@ -134,13 +134,15 @@ pub fn read_peaks(
 }
 
 /// No pressure is beyond engines.
-fn in_range(table: &CsvTable<'_, 2>, ambient: f64) -> Result<(), InputError> {
+fn in_range(table: &CsvTable<'_, 2>, ambient: f64) -> Result<(), Vec<InputError>> {
     let beyond = |pressure: f64| pressure + ambient > HIGHEST_PRESSURE;
     match table.rows.iter().find(|row| beyond(row.values[PRESSURE])) {
-        Some(row) => Err(table
-            .error_at(row, PRESSURE, "the gas pressure is out of range")
-            .allowing(format!("up to {} bar", HIGHEST_PRESSURE / 1e5))
-            .hinting("the unit stands in the header of the column: is it right?")),
+        Some(row) => Err(vec![
+            table
+                .error_at(row, PRESSURE, "the gas pressure is out of range")
+                .allowing(format!("up to {} bar", HIGHEST_PRESSURE / 1e5))
+                .hinting("the unit stands in the header of the column: is it right?"),
+        ]),
         None => Ok(()),
     }
 }
@@ -231,20 +233,17 @@ fn misplaced(
         }
     });
     let firing = round(settings.firing_tdc.to_degrees());
-    let mut right = (settings.firing_tdc + shift).to_degrees();
-    let period = settings.period.to_degrees();
-    let first = table
-        .rows
-        .first()
-        .map_or(0.0, |row| row.values[ANGLE].to_degrees());
-    right = first + (right - first + 1e-6).rem_euclid(period) - 1e-6;
+    let (right, period) = (settings.firing_tdc + shift, settings.period);
+    let first = table.rows.first().map_or(0.0, |row| row.values[ANGLE]);
+    // The one of its repetitions that stands in the file; at its very first row rather than its last.
+    let right = first + (right - first + 1e-6).rem_euclid(period) - 1e-6;
     let message = format!(
         "the peak of the indicator diagram lies {} deg from the firing top dead centre at {firing} deg",
         round(peak.to_degrees().abs())
     );
     let hint = format!(
         "in this file the cylinder fires near {} deg: give that as its firing top dead centre",
-        round(right)
+        round(right.to_degrees())
     );
     let error = match highest {
         Some(row) => table.error_at(row, ANGLE, message),
