@@ -10,6 +10,8 @@ pub struct Performance {
     pub crank_angles: Vec<f64>,
     /// Absolute gas pressure in cylinder 1, Pa.
     pub gas_pressure: Vec<f64>,
+    /// Volume that piston 1 has left behind since it stood nearest to the head, m3.
+    pub displaced_volume: Vec<f64>,
     /// Torque of gas and inertia on the crankshaft, N m, in the sense of rotation.
     pub torque: Vec<f64>,
     /// Torque of the gas alone, N m.
