@@ -76,7 +76,7 @@ pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 pub use layout_plan::{LayoutKind, LayoutPlan};
 pub use loads::bearing_duties;
-pub use mains::{ShaftForce, determinate_main_loads, resultant, shaft_forces};
+pub use mains::{determinate_main_loads, resultant, shaft_forces};
 pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::{Performance, cycle_work, performance, throw_torques};

@@ -290,7 +290,8 @@ impl Results {
                 Quantity::PowerLoss => Some(steady.summary.power_loss()),
             },
             Body::LoadCycle(cycle) => cycle.limited_value(quantity),
-            Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
+            Body::Machine(machine) => machine.worst(quantity).map(|worst| worst.value),
+            Body::Dimensionless(_) | Body::Sweep(_) => None,
         }
     }
 }
@@ -365,6 +366,22 @@ impl CycleResults {
     #[must_use]
     pub fn maximum_load(&self) -> Option<&CyclePoint> {
         self.largest(|point| magnitude(point.load))
+    }
+
+    /// The result that a limit of this quantity judges, SI.
+    pub(crate) fn limited_value(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::MinimumFilmThickness => self
+                .minimum_film_thickness()
+                .map(|point| point.summary.minimum_film_thickness.value),
+            Quantity::PeakFilmPressure => self
+                .peak_film_pressure()
+                .map(|point| point.summary.peak_film_pressure.value),
+            Quantity::MaximumSpecificLoad => self
+                .maximum_load()
+                .map(|point| specific_load(&self.bearing, point.load)),
+            Quantity::PowerLoss => Some(self.mean(|point| point.summary.power_loss())),
+        }
     }
 
     /// The point at which a value is largest, the first of equals; points where it is not finite
