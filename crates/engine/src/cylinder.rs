@@ -10,6 +10,24 @@ use crate::{
     CrankMotion, CrankTrain, IndicatorDiagram, SliderCrank, SliderCrankInstant, ThrowInstant,
 };
 
+/// One cylinder of an engine: what is the same at every crank angle.
+#[derive(Debug, Clone, Copy)]
+pub struct WorkingCylinder<'a> {
+    train: &'a CrankTrain,
+    diagram: &'a IndicatorDiagram,
+    slider_crank: SliderCrank,
+    /// Axial position of its throw, m.
+    throw_axial: f64,
+    /// Angle of the arm from the cylinder axis at crank angle 0, rad.
+    arm: f64,
+    /// Crank angle at which the gas cycle begins, rad.
+    cycle_start: f64,
+    /// m2.
+    piston_area: f64,
+    /// Cosine and sine of the bank angle.
+    bank: [f64; 2],
+}
+
 /// One cylinder at a crank angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CylinderInstant {
@@ -27,9 +45,63 @@ pub struct CylinderInstant {
     bank: [f64; 2],
 }
 
+impl<'a> WorkingCylinder<'a> {
+    /// Cylinder `index` (0-based); `None` if there is no such cylinder or throw.
+    #[must_use]
+    pub fn of(train: &'a CrankTrain, diagram: &'a IndicatorDiagram, index: usize) -> Option<Self> {
+        let cylinder = train.layout.cylinders.get(index)?;
+        let throw = train.layout.throws.get(cylinder.throw)?;
+        let slider_crank = SliderCrank::of(train);
+        let (sin, cos) = cylinder.bank_angle.sin_cos();
+        Some(Self {
+            train,
+            diagram,
+            slider_crank,
+            throw_axial: throw.axial,
+            arm: throw.angle - cylinder.bank_angle,
+            cycle_start: cylinder.firing_angle + slider_crank.top_dead_centre(),
+            piston_area: train.piston_area(),
+            bank: [cos, sin],
+        })
+    }
+
+    /// All cylinders of an engine with their indices; those without a throw are left out.
+    pub(crate) fn all(train: &'a CrankTrain, diagram: &'a IndicatorDiagram) -> Vec<(usize, Self)> {
+        (0..train.layout.cylinders.len())
+            .filter_map(|index| Some((index, Self::of(train, diagram, index)?)))
+            .collect()
+    }
+
+    /// Crank angle at which its gas cycle begins, rad: the firing top dead centre of its piston.
+    #[must_use]
+    pub fn cycle_start(&self) -> f64 {
+        self.cycle_start
+    }
+
+    /// The cylinder when the crank angle (rad) is `crank_angle`.
+    #[must_use]
+    pub fn at(&self, motion: &CrankMotion, crank_angle: f64) -> CylinderInstant {
+        let place = motion.at(self.throw_axial, crank_angle);
+        let slider = self.slider_crank.at(ThrowInstant {
+            angle: place.angle + self.arm,
+            ..place
+        });
+        let gas_pressure = self.diagram.at(place.angle - self.cycle_start);
+        let gas_force = self.piston_area * (gas_pressure - self.train.crankcase_pressure);
+        CylinderInstant {
+            slider,
+            gas_pressure,
+            gas_force,
+            forces: rod_forces(self.train, &slider, gas_force),
+            inertia_force: inertia_force(self.train, &slider),
+            bank: self.bank,
+        }
+    }
+}
+
 impl CylinderInstant {
     /// Cylinder `index` (0-based) when the crank angle (rad) is `crank_angle`; `None` if there is no such
-    /// cylinder or throw.
+    /// cylinder or throw. For many angles, keep the [`WorkingCylinder`].
     #[must_use]
     pub fn at(
         train: &CrankTrain,
@@ -38,26 +110,7 @@ impl CylinderInstant {
         index: usize,
         crank_angle: f64,
     ) -> Option<Self> {
-        let cylinder = train.layout.cylinders.get(index)?;
-        let throw = train.layout.throws.get(cylinder.throw)?;
-        let place = motion.at(throw.axial, crank_angle);
-        let slider_crank = SliderCrank::of(train);
-        let slider = slider_crank.at(ThrowInstant {
-            angle: place.angle + throw.angle - cylinder.bank_angle,
-            ..place
-        });
-        let cycle_angle = place.angle - cylinder.firing_angle - slider_crank.top_dead_centre();
-        let gas_pressure = diagram.at(cycle_angle);
-        let gas_force = train.piston_area() * (gas_pressure - train.crankcase_pressure);
-        let (sin, cos) = cylinder.bank_angle.sin_cos();
-        Some(Self {
-            slider,
-            gas_pressure,
-            gas_force,
-            forces: rod_forces(train, &slider, gas_force),
-            inertia_force: inertia_force(train, &slider),
-            bank: [cos, sin],
-        })
+        Some(WorkingCylinder::of(train, diagram, index)?.at(motion, crank_angle))
     }
 
     /// A vector of the frame of the cylinder in the engine frame.

@@ -30,8 +30,6 @@ pub struct SliderCrank {
 pub struct SliderCrankInstant {
     /// Angle of the arm from the cylinder axis, rad, its speed, rad/s, and acceleration, rad/s2.
     pub crank: ThrowInstant,
-    /// Angle b of the rod, rad: it points along (cos b, -sin b).
-    pub rod_angle: f64,
     /// Angular speed of the rod in the sense of rotation of the crank, -b', rad/s.
     pub rod_speed: f64,
     /// Angular acceleration of the rod, -b'', rad/s2.
@@ -101,7 +99,6 @@ impl SliderCrank {
         ];
         SliderCrankInstant {
             crank,
-            rod_angle: sin_rod.asin(),
             rod_speed: -rate,
             rod_acceleration: -second,
             rod_direction: [cos_rod, -sin_rod],
@@ -116,6 +113,12 @@ impl SliderCrank {
 }
 
 impl SliderCrankInstant {
+    /// Angle b of the rod, rad: it points along (cos b, -sin b).
+    #[must_use]
+    pub fn rod_angle(&self) -> f64 {
+        (-self.rod_direction[1]).asin()
+    }
+
     /// Acceleration of the point of the rod at `distance` (m) from the big-end centre, m/s2.
     #[must_use]
     pub fn rod_point_acceleration(&self, distance: f64) -> [f64; 2] {

@@ -12,7 +12,11 @@
 use crate::mains::{determinate_main_loads, unbalance_forces};
 use crate::{
     BearingDuty, CrankMotion, CrankTrain, CylinderInstant, IndicatorDiagram, PinSpeed, Role,
+<<<<<<< HEAD
     ShaftForce,
+=======
+    WorkingCylinder,
+>>>>>>> loads
 };
 use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 
@@ -30,20 +34,18 @@ pub fn bearing_duties(
     let layout = &train.layout;
     let period = train.period();
     let mut rows = Rows::new(layout.mains.len(), layout.cylinders.len(), points);
+    let cylinders = WorkingCylinder::all(train, diagram);
     for step in 0..points {
         let crank_angle = period * step as f64 / points as f64;
-        let mut forces: Vec<ShaftForce> = Vec::with_capacity(layout.cylinders.len());
-        for (index, cylinder) in layout.cylinders.iter().enumerate() {
-            let Some(instant) = CylinderInstant::at(train, diagram, motion, index, crank_angle)
-            else {
-                continue;
-            };
+        let mut forces: Vec<ShaftForce> = Vec::with_capacity(cylinders.len());
+        for (index, cylinder) in &cylinders {
+            let instant = cylinder.at(motion, crank_angle);
             forces.push(ShaftForce {
-                axial: cylinder.axial,
+                axial: layout.cylinders[*index].axial,
                 force: instant.crankpin_force(),
             });
-            let pin_speed = pin.at(index, crank_angle, period, instant.slider.rod_speed);
-            rows.add_rod(index, crank_angle, &instant, pin_speed);
+            let pin_speed = pin.at(*index, crank_angle, period, instant.slider.rod_speed);
+            rows.add_rod(*index, crank_angle, &instant, pin_speed);
         }
         forces.extend(unbalance_forces(train, motion, crank_angle));
         let loads = determinate_main_loads(&layout.mains, &forces);

@@ -6,10 +6,18 @@
 //! return. Mean torque and work are Gauss sums between the kinks of the indicator diagram, to round-off
 //! for a shaft that turns evenly; the rows are values at their crank angles.
 
+<<<<<<< HEAD
 use crate::mains::{resultant, unbalance_forces};
 use crate::{
     CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, ShaftForce, SliderCrank,
     harmonics,
+=======
+use crate::harmonics::harmonics;
+use crate::mains::{ShaftForce, resultant, unbalance_forces};
+use crate::{
+    CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, SliderCrank,
+    WorkingCylinder,
+>>>>>>> loads
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -63,15 +71,22 @@ pub fn performance(
     let cylinders = train.layout.cylinders.len();
     let mut found = Performance::empty(cylinders, points);
     let middle = middle_of_mains(&train.layout.mains);
+    let working = WorkingCylinder::all(train, diagram);
     for step in 0..points {
         let crank_angle = period * step as f64 / points as f64;
-        found.add_row(train, diagram, motion, crank_angle, middle);
+        found.add_row(train, &working, motion, crank_angle, middle);
     }
     let area = train.piston_area();
     found.swept_volume = cylinders as f64 * area * SliderCrank::of(train).stroke();
-    let all_torques: f64 = (0..cylinders)
-        .map(|index| cycle_integral(train, diagram, motion, index, CylinderInstant::torque))
-        .sum();
+    let all_torques: f64 = match motion.twists.is_empty() {
+        // all cylinders do the same, one after the other
+        true => {
+            cylinders as f64 * cycle_integral(train, diagram, motion, 0, CylinderInstant::torque)
+        }
+        false => (0..cylinders)
+            .map(|index| cycle_integral(train, diagram, motion, index, CylinderInstant::torque))
+            .sum(),
+    };
     found.mean_torque = all_torques / period;
     let work = cycle_work(train, diagram);
     found.indicated_mean_effective_pressure = cylinders as f64 * work / found.swept_volume;
@@ -127,22 +142,20 @@ fn cycle_integral(
     index: usize,
     quantity: impl Fn(&CylinderInstant) -> f64,
 ) -> f64 {
-    /// Largest crank angle of a panel, rad: three degrees.
+    /// Largest crank angle of a panel, rad: three degrees, where three places err by 1e-12.
     const PANEL: f64 = std::f64::consts::PI / 60.0;
-    /// Places in a panel of length 2 and their weights (Gauss-Legendre, exact to degree 7).
-    const GAUSS: [[f64; 2]; 4] = [
-        [-0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
-        [-0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
-        [0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
-        [0.861_136_311_594_052_6, 0.347_854_845_137_453_85],
+    /// Places in a panel of length 2 and their weights: Gauss-Legendre, exact to degree 5.
+    const GAUSS: [[f64; 2]; 3] = [
+        [-0.774_596_669_241_483_4, 5.0 / 9.0],
+        [0.0, 8.0 / 9.0],
+        [0.774_596_669_241_483_4, 5.0 / 9.0],
     ];
-    let Some(cylinder) = train.layout.cylinders.get(index) else {
+    let (Some(cylinder), Some(&[first, _])) = (
+        WorkingCylinder::of(train, diagram, index),
+        diagram.points.first(),
+    ) else {
         return f64::NAN;
     };
-    let Some(&[first, _]) = diagram.points.first() else {
-        return f64::NAN;
-    };
-    let start = cylinder.firing_angle + SliderCrank::of(train).top_dead_centre();
     let kinks = diagram.points.iter().map(|point| point[0]);
     let ends = kinks.skip(1).chain([first + diagram.period]);
     let mut sum = 0.0;
@@ -151,11 +164,10 @@ fn cycle_integral(
         let panels = ((to - from) / PANEL).ceil().max(0.0) as usize;
         let half = 0.5 * (to - from) / panels as f64;
         for panel in 0..panels {
-            let middle = start + from + half * (2 * panel + 1) as f64;
+            let middle = cylinder.cycle_start() + from + half * (2 * panel + 1) as f64;
             for [place, weight] in GAUSS {
-                let angle = middle + half * place;
-                let instant = CylinderInstant::at(train, diagram, motion, index, angle);
-                sum += half * weight * instant.as_ref().map_or(f64::NAN, &quantity);
+                let instant = cylinder.at(motion, middle + half * place);
+                sum += half * weight * quantity(&instant);
             }
         }
         from = to;
@@ -193,22 +205,19 @@ impl Performance {
     fn add_row(
         &mut self,
         train: &CrankTrain,
-        diagram: &IndicatorDiagram,
+        working: &[(usize, WorkingCylinder<'_>)],
         motion: &CrankMotion,
         crank_angle: f64,
         middle: f64,
     ) {
         let (mut torque, mut gas_torque) = (0.0, 0.0);
         let mut shaking: Vec<ShaftForce> = unbalance_forces(train, motion, crank_angle).collect();
-        for (index, cylinder) in train.layout.cylinders.iter().enumerate() {
-            let Some(instant) = CylinderInstant::at(train, diagram, motion, index, crank_angle)
-            else {
-                continue;
-            };
+        for &(index, cylinder) in working {
+            let instant = cylinder.at(motion, crank_angle);
             torque += instant.torque();
             gas_torque += instant.gas_torque();
             shaking.push(ShaftForce {
-                axial: cylinder.axial,
+                axial: train.layout.cylinders[index].axial,
                 force: instant.in_engine_frame(instant.inertia_force),
             });
             self.side_thrust[index].push(instant.forces.side_thrust);

@@ -83,7 +83,7 @@ fn motion_is_the_derivative_of_position_where_the_speed_ripples() {
                 speed_scale,
             ),
             (slope(|at| at.piston_speed), now.piston_acceleration, scale),
-            (-slope(|at| at.rod_angle), now.rod_speed, SPEED),
+            (-slope(|at| at.rod_angle()), now.rod_speed, SPEED),
             (
                 slope(|at| at.rod_speed),
                 now.rod_acceleration,

@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{SPEED, close, diagram, diesel, general, inline, layouts, no_gas, plan, rippling};
+use common::{SPEED, close, diagram, diesel, general, inline, layouts, no_gas, rippling};
 use sommerfeld_engine::{
-    CrankMotion, CrankTrain, CylinderInstant, EngineLayout, LayoutKind, PinSpeed, Role, ShaftForce,
-    bearing_duties, determinate_main_loads, performance, resultant, shaft_forces,
+    CrankMotion, CrankTrain, CylinderInstant, PinSpeed, Role, ShaftForce, bearing_duties,
+    determinate_main_loads, performance, resultant, shaft_forces,
 };
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Loads are of this size, N: bars are shares of it.
 const SCALE: f64 = 1e5;

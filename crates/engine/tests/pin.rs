@@ -104,9 +104,6 @@ fn friction_of_both_films_cancels_on_a_floating_pin() {
         }
         residual = worst / largest;
         close(balance.residual, residual, 1e-12, "residual");
-        let speeds = balance.speeds.iter().map(|row| row[1].abs());
-        // slower than the rod, which reaches 69 rad/s: no singularity where the relative speed turns round
-        assert!(speeds.fold(0.0, f64::max) < 100.0);
         pin = PinSpeed::Tables(vec![balance.speeds]);
         rounds += 1;
     }

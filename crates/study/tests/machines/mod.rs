@@ -110,8 +110,11 @@ pub fn inline_plan(firing_order: &[usize], speeds: &[f64]) -> MachinePlan {
     let of = |role, count: usize, bearing: Bearing| {
         (0..count).map(move |index| member(role, index, bearing.clone()))
     };
-    let bearings = of(Role::Main, mains, bearing(0.083, 0.030, 41e-6))
-        .chain(of(Role::BigEnd, firing_order.len(), bearing(0.069, 0.034, 35e-6)));
+    let bearings = of(Role::Main, mains, bearing(0.083, 0.030, 41e-6)).chain(of(
+        Role::BigEnd,
+        firing_order.len(),
+        bearing(0.069, 0.034, 35e-6),
+    ));
     MachinePlan {
         bearings: bearings.collect(),
         lubricant: Lubricant {
@@ -136,7 +139,12 @@ pub fn inline_plan(firing_order: &[usize], speeds: &[f64]) -> MachinePlan {
 }
 
 /// A study of a machine as the reader of study files would hand it over.
-pub fn study(plan: MachinePlan, model: FilmModel, grid: [usize; 2], limits: Vec<StudyLimit>) -> Study {
+pub fn study(
+    plan: MachinePlan,
+    model: FilmModel,
+    grid: [usize; 2],
+    limits: Vec<StudyLimit>,
+) -> Study {
     Study {
         title: "An engine made by hand".into(),
         analysis: Analysis::Engine,
