@@ -1,20 +1,19 @@
 //! How fast does a piston pin turn that floats in rod and piston?
 //!
-//! So that the friction torques of its two films cancel at every crank angle
-//! ([`balanced_pin_speeds`]). The films change with the speed: orbits and balance take turns, with the
-//! mean of the old and the new speeds, until these stay.
+//! So that the friction torques of its two films cancel at every crank angle ([`PinBalance`]). The films
+//! change with the speed: orbits and balance take turns until little is left of the torques.
 
 use super::units::{BearingFound, UnitFound, solve_alone};
 use super::{ProgressCallback, RunError, Work};
 use crate::progress::ProgressEvent;
 use sommerfeld_bearing::LoadCycle;
-use sommerfeld_engine::{PinSpeed, balanced_pin_speeds};
+use sommerfeld_engine::{PinBalance, PinSpeed};
 use sommerfeld_film::Outcome;
 
 /// Turns of orbits and balance at most.
 const LARGEST_PASSES: usize = 8;
-/// The speeds stay when they change by less, over the largest speed of the rod.
-const TOLERANCE: f64 = 0.01;
+/// Largest sum of both torques that is left, over the largest of them.
+const TOLERANCE: f64 = 0.02;
 
 /// The orbits of small end and piston boss, in this order, with the speed of the pin that balances them.
 pub(super) fn solve_pin(
@@ -37,20 +36,18 @@ pub(super) fn solve_pin(
         let mut in_rod = solve_alone(work, speed, films[0], rod, &mut |event| share(0, event))?;
         let mut in_boss = solve_alone(work, speed, films[1], boss, &mut |event| share(1, event))?;
         pass += 1;
-        let balanced = balanced_pin_speeds(&in_rod.orbit, &in_boss.orbit);
-        let Some(balanced) = balanced.map(|rows| PinSpeed::Tables(vec![rows])) else {
+        let Some(balance) = PinBalance::of(&in_rod.orbit, &in_boss.orbit) else {
             return Ok(vec![in_rod, in_boss]);
         };
-        let (mean, change) = moved(&cycles, &balanced);
-        if change < TOLERANCE {
+        if balance.residual < TOLERANCE {
             return Ok(vec![in_rod, in_boss]);
         }
         if pass == LARGEST_PASSES {
             let note = format!(
-                "{}: not converged, the speed of the floating pin still changes by {:.1} % of that \
-                 of the rod after {pass} passes",
+                "{}: not converged, friction torques of {:.1} % of the largest are left on the \
+                 floating pin after {pass} rounds",
                 work.place(speed, films[0]),
-                100.0 * change
+                100.0 * balance.residual
             );
             in_rod.notes.push(note);
             for found in [&mut in_rod, &mut in_boss] {
@@ -58,7 +55,7 @@ pub(super) fn solve_pin(
             }
             return Ok(vec![in_rod, in_boss]);
         }
-        cycles = mean;
+        turn(&mut cycles, &PinSpeed::Tables(vec![balance.speeds]));
     }
 }
 
@@ -69,22 +66,14 @@ fn mark(found: &mut BearingFound) {
     }
 }
 
-/// The load cycles of rod and boss with the mean of their speed of the pin and the balanced one, and
-/// the largest distance of both over the largest speed of the rod.
-fn moved(cycles: &[LoadCycle; 2], balanced: &PinSpeed) -> ([LoadCycle; 2], f64) {
-    let mut mean = cycles.clone();
-    let [in_rod, in_boss] = &mut mean;
-    let (mut change, mut fastest) = (0.0_f64, 0.0_f64);
+/// Gives the pin another speed in the load cycles of rod and boss.
+fn turn(cycles: &mut [LoadCycle; 2], speeds: &PinSpeed) {
+    let [in_rod, in_boss] = cycles;
     for (rod_row, boss_row) in in_rod.points.iter_mut().zip(&mut in_boss.points) {
-        let pin = boss_row.journal_speed;
-        let rod = pin - rod_row.journal_speed;
-        let due = balanced.at(0, boss_row.crank_angle, in_boss.period, rod);
-        change = change.max((due - pin).abs());
-        fastest = fastest.max(rod.abs());
-        boss_row.journal_speed = 0.5 * (pin + due);
+        let rod = boss_row.journal_speed - rod_row.journal_speed;
+        boss_row.journal_speed = speeds.at(0, boss_row.crank_angle, in_boss.period, rod);
         rod_row.journal_speed = boss_row.journal_speed - rod;
     }
-    (mean, change / fastest.max(f64::MIN_POSITIVE))
 }
 
 #[cfg(test)]
@@ -112,13 +101,12 @@ mod tests {
 
     #[test]
     fn both_films_see_the_same_rod_before_and_after() {
-        // Rod at 4 and -4, pin at 2 and 0; balanced at 1 and -1.
-        let cycles = [cycle([-2.0, 4.0]), cycle([2.0, 0.0])];
-        let balanced = PinSpeed::Tables(vec![vec![[0.0, 1.0], [1.0, -1.0]]]);
-        let ([in_rod, in_boss], change) = moved(&cycles, &balanced);
-        assert_eq!(change, 0.25);
+        // Rod at 4 and -4, pin at 2 and 0; then at 1 and -1.
+        let mut cycles = [cycle([-2.0, 4.0]), cycle([2.0, 0.0])];
+        let other = PinSpeed::Tables(vec![vec![[0.0, 1.0], [1.0, -1.0]]]);
+        turn(&mut cycles, &other);
         let speeds = |cycle: &LoadCycle| [0, 1].map(|at| cycle.points[at].journal_speed);
-        assert_eq!(speeds(&in_boss), [1.5, -0.5]);
-        assert_eq!(speeds(&in_rod), [-2.5, 3.5]);
+        assert_eq!(speeds(&cycles[1]), [1.0, -1.0]);
+        assert_eq!(speeds(&cycles[0]), [-3.0, 3.0]);
     }
 }
