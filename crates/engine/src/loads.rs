@@ -12,11 +12,7 @@
 use crate::mains::{determinate_main_loads, unbalance_forces};
 use crate::{
     BearingDuty, CrankMotion, CrankTrain, CylinderInstant, IndicatorDiagram, PinSpeed, Role,
-<<<<<<< HEAD
-    ShaftForce,
-=======
-    WorkingCylinder,
->>>>>>> loads
+    ShaftForce, WorkingCylinder,
 };
 use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
 

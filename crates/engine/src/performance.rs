@@ -6,18 +6,10 @@
 //! return. Mean torque and work are Gauss sums between the kinks of the indicator diagram, to round-off
 //! for a shaft that turns evenly; the rows are values at their crank angles.
 
-<<<<<<< HEAD
 use crate::mains::{resultant, unbalance_forces};
 use crate::{
     CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, ShaftForce, SliderCrank,
-    harmonics,
-=======
-use crate::harmonics::harmonics;
-use crate::mains::{ShaftForce, resultant, unbalance_forces};
-use crate::{
-    CrankMotion, CrankTrain, CylinderInstant, Harmonic, IndicatorDiagram, SliderCrank,
-    WorkingCylinder,
->>>>>>> loads
+    WorkingCylinder, harmonics,
 };
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;

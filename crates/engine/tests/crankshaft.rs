@@ -353,6 +353,26 @@ fn two_throws_may_share_a_bay() {
 }
 
 #[test]
+fn a_throw_may_overhang_two_neighbouring_mains() {
+    let mut train = train(&[0.8], 1);
+    train.layout.mains = vec![2.0 * PITCH, 2.0 * PITCH + 0.06];
+    // rod; counterweights in the web's plane and in front of the pin; behind the last main
+    let places = [PITCH, PITCH + 0.0205, 0.01, 0.2];
+    let shaft = condensed_crankshaft(&train, &shape(BAR), &places).unwrap();
+    let off = rigid(&train.layout.mains).tr_mul(&shaft.load_transfer) - rigid(&places).transpose();
+    assert!(off.amax() < 1e-10, "{:e}", off.amax());
+    // two mains on one straight piece: 12 E I / (L^3 (1 + phi))
+    let steel = Material {
+        youngs_modulus: 210e9,
+        poissons_ratio: 0.3,
+    };
+    let journal = Section::circle(&steel, 0.055, 0.012);
+    let straight = journal.bending[0] * 12.0 / 0.06_f64.powi(2);
+    let exact = straight / (0.06 * (1.0 + straight * journal.shear_flexibility[0]));
+    close(shaft.stiffness[(0, 0)], exact, 1e-9, "between the mains");
+}
+
+#[test]
 fn crankshafts_that_cannot_be_are_refused_by_name() {
     let refused = |change: &dyn Fn(&mut CrankTrain, &mut CrankshaftShape, &mut Vec<f64>)| {
         let (mut train, mut places) = vee();

@@ -1,7 +1,8 @@
 //! How fast does a piston pin turn that floats in rod and piston?
 //!
-//! So that the friction torques of its two films cancel at every crank angle ([`PinBalance`]). The films
-//! change with the speed: orbits and balance take turns until little is left of the torques.
+//! So that the friction torques of its two films cancel at every crank angle
+//! ([`PinBalance`]). The films change with the speed: orbits and balance take turns until the torques
+//! cancel.
 
 use super::units::{BearingFound, UnitFound, solve_alone};
 use super::{ProgressCallback, RunError, Work};
@@ -12,8 +13,8 @@ use sommerfeld_film::Outcome;
 
 /// Turns of orbits and balance at most.
 const LARGEST_PASSES: usize = 8;
-/// Largest sum of both torques that is left, over the largest of them.
-const TOLERANCE: f64 = 0.02;
+/// The torques cancel when less of them is left, over the largest torque.
+const TOLERANCE: f64 = 0.01;
 
 /// The orbits of small end and piston boss, in this order, with the speed of the pin that balances them.
 pub(super) fn solve_pin(
@@ -44,8 +45,8 @@ pub(super) fn solve_pin(
         }
         if pass == LARGEST_PASSES {
             let note = format!(
-                "{}: not converged, friction torques of {:.1} % of the largest are left on the \
-                 floating pin after {pass} rounds",
+                "{}: not converged, {:.1} % of the friction torque on the floating pin is not balanced \
+                 after {pass} passes",
                 work.place(speed, films[0]),
                 100.0 * balance.residual
             );
@@ -55,7 +56,7 @@ pub(super) fn solve_pin(
             }
             return Ok(vec![in_rod, in_boss]);
         }
-        turn(&mut cycles, &PinSpeed::Tables(vec![balance.speeds]));
+        set_pin_speeds(&mut cycles, &PinSpeed::Tables(vec![balance.speeds]));
     }
 }
 
@@ -66,9 +67,8 @@ fn mark(found: &mut BearingFound) {
     }
 }
 
-/// Gives the pin another speed in the load cycles of rod and boss.
-fn turn(cycles: &mut [LoadCycle; 2], speeds: &PinSpeed) {
-    let [in_rod, in_boss] = cycles;
+/// Gives the load cycles of rod and boss other speeds of the pin; the rod swings as before.
+fn set_pin_speeds([in_rod, in_boss]: &mut [LoadCycle; 2], speeds: &PinSpeed) {
     for (rod_row, boss_row) in in_rod.points.iter_mut().zip(&mut in_boss.points) {
         let rod = boss_row.journal_speed - rod_row.journal_speed;
         boss_row.journal_speed = speeds.at(0, boss_row.crank_angle, in_boss.period, rod);
@@ -104,9 +104,8 @@ mod tests {
         // Rod at 4 and -4, pin at 2 and 0; then at 1 and -1.
         let mut cycles = [cycle([-2.0, 4.0]), cycle([2.0, 0.0])];
         let other = PinSpeed::Tables(vec![vec![[0.0, 1.0], [1.0, -1.0]]]);
-        turn(&mut cycles, &other);
-        let speeds = |cycle: &LoadCycle| [0, 1].map(|at| cycle.points[at].journal_speed);
-        assert_eq!(speeds(&cycles[1]), [1.0, -1.0]);
-        assert_eq!(speeds(&cycles[0]), [-3.0, 3.0]);
+        set_pin_speeds(&mut cycles, &other);
+        let speeds = cycles.map(|cycle| [0, 1].map(|at| cycle.points[at].journal_speed));
+        assert_eq!(speeds, [[-3.0, 3.0], [1.0, -1.0]]);
     }
 }
