@@ -368,22 +368,6 @@ impl CycleResults {
         self.largest(|point| magnitude(point.load))
     }
 
-    /// The result that a limit of this quantity judges, SI.
-    pub(crate) fn limited_value(&self, quantity: Quantity) -> Option<f64> {
-        match quantity {
-            Quantity::MinimumFilmThickness => self
-                .minimum_film_thickness()
-                .map(|point| point.summary.minimum_film_thickness.value),
-            Quantity::PeakFilmPressure => self
-                .peak_film_pressure()
-                .map(|point| point.summary.peak_film_pressure.value),
-            Quantity::MaximumSpecificLoad => self
-                .maximum_load()
-                .map(|point| specific_load(&self.bearing, point.load)),
-            Quantity::PowerLoss => Some(self.mean(|point| point.summary.power_loss())),
-        }
-    }
-
     /// The point at which a value is largest, the first of equals; points where it is not finite
     /// do not count.
     pub fn largest(&self, value: impl Fn(&CyclePoint) -> f64) -> Option<&CyclePoint> {
