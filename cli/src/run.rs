@@ -60,7 +60,7 @@ pub fn run(arguments: &RunArguments) -> Exit {
                 Exit::NotConverged
             }
         }
-        Err(error @ (RunError::Film(_) | RunError::Bearing { .. })) => {
+        Err(error @ (RunError::Film(_) | RunError::Bearing { .. } | RunError::Machine { .. })) => {
             eprintln!("error: {}: {error}", arguments.file.display());
             Exit::Refused
         }

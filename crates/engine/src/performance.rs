@@ -25,6 +25,8 @@ pub struct Performance {
     pub crank_angles: Vec<f64>,
     /// Absolute gas pressure in cylinder 1, Pa.
     pub gas_pressure: Vec<f64>,
+    /// Volume that piston 1 has left behind since it stood nearest to the head, m3.
+    pub displaced_volume: Vec<f64>,
     /// Torque of gas and inertia on the crankshaft, N m, in the sense of rotation.
     pub torque: Vec<f64>,
     /// Torque of the gas alone, N m.
@@ -177,6 +179,7 @@ impl Performance {
         Self {
             crank_angles: Vec::with_capacity(points),
             gas_pressure: Vec::with_capacity(points),
+            displaced_volume: Vec::with_capacity(points),
             torque: Vec::with_capacity(points),
             gas_torque: Vec::with_capacity(points),
             mean_torque: f64::NAN,
@@ -212,6 +215,10 @@ impl Performance {
             self.side_thrust[index].push(instant.forces.side_thrust);
             if index == 0 {
                 self.gas_pressure.push(instant.gas_pressure);
+                let reach = train.rod_length + train.crank_radius;
+                let top = (reach * reach - train.pin_offset * train.pin_offset).sqrt();
+                let way = top - instant.slider.piston_position;
+                self.displaced_volume.push(train.piston_area() * way);
             }
         }
         let (force, moment) = resultant(&shaking, middle);

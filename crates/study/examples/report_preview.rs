@@ -22,6 +22,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("not-converged", synthetic::load_cycle_not_converged(title)),
         ("steady", synthetic::steady(title)),
         ("dimensionless", synthetic::dimensionless(title)),
+        ("engine", synthetic::machine::inline_six(title, 1, true)),
+        (
+            "engine-speeds",
+            synthetic::machine::inline_six(title, 8, true),
+        ),
+        ("shaft", synthetic::machine::shaft(title)),
     ];
     for (name, results) in previews {
         write_all(&results, &directory.join(name))?;

@@ -6,7 +6,7 @@
 //! Design limits are another thing: they are the user's, in [`limits`](crate::limits).
 
 use crate::limits::Quantity;
-use crate::results::Results;
+use crate::results::{Body, Results};
 
 /// Thinnest film that smooth surfaces can stand for, m. The finest finished journals and shells have
 /// a combined roughness of some 0.03 um rms, and from about three times the combined roughness
@@ -20,9 +20,12 @@ pub const SMOOTH_SURFACES: f64 = 0.1e-6;
 pub const RIGID_SHELL: f64 = 1e9;
 
 /// What a reader of the results must know; empty where the physics holds. A result that is not there
-/// is not judged.
+/// is not judged; of a machine the run names the bearings.
 #[must_use]
 pub fn warnings(results: &Results) -> Vec<String> {
+    if let Body::Machine(_) = &results.body {
+        return Vec::new();
+    }
     let thinnest = results.limited_value(Quantity::MinimumFilmThickness);
     let peak = results.limited_value(Quantity::PeakFilmPressure);
     let thinnest = thinnest.and_then(thin_film);

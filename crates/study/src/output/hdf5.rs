@@ -163,7 +163,10 @@ impl<W: Write + Seek> Layout<W> {
         shape: &[usize],
         values: &[f64],
     ) -> io::Result<Node> {
-        let node = self.file.doubles(group, name, shape, values)?;
+        // One NaN for all that is not finite: equal results are equal bytes.
+        let shown = |value: &f64| if value.is_finite() { *value } else { f64::NAN };
+        let values: Vec<f64> = values.iter().map(shown).collect();
+        let node = self.file.doubles(group, name, shape, &values)?;
         self.describe(node, name, unit);
         Ok(node)
     }

@@ -3,7 +3,7 @@
 //! To add one: build a [`Chart`], put `chart.data()` under `"charts"` and its name in the data of
 //! the figures, and list a [`Figure`](super::page::Figure) whose kind is that name.
 
-use super::figures::short;
+use super::detail::Detail;
 use serde_json::{Value, json};
 
 /// How a series is drawn.
@@ -13,6 +13,8 @@ pub(super) enum Mark {
     Line,
     /// Dots.
     Dots,
+    /// Bars.
+    Bars,
 }
 
 /// One curve of a chart.
@@ -20,8 +22,8 @@ pub(super) enum Mark {
 pub(super) struct Series {
     /// Its name in the legend.
     pub name: String,
-    /// Places, in the unit of the axis.
-    pub x: Vec<f64>,
+    /// Places, in the unit of the axis; none for the crank angles of the cycle's curves.
+    pub x: Option<Vec<f64>>,
     /// Values, in the unit of the axis; a gap where not finite.
     pub y: Vec<f64>,
     /// How it is drawn.
@@ -43,14 +45,13 @@ pub(super) struct Chart {
 
 impl Chart {
     /// The chart for the script.
-    pub fn data(&self) -> Value {
-        let numbers = |values: &[f64]| values.iter().copied().map(short).collect::<Value>();
+    pub fn data(&self, detail: &Detail) -> Value {
         let series = self.series.iter().map(|series| {
             json!({
                 "name": series.name,
-                "x": numbers(&series.x),
-                "y": numbers(&series.y),
-                "dots": series.mark == Mark::Dots,
+                "x": series.x.as_deref().map(|places| detail.numbers(places)),
+                "y": detail.numbers(&series.y),
+                "mark": match series.mark { Mark::Line => "line", Mark::Dots => "dots", Mark::Bars => "bars" },
             })
         });
         json!({

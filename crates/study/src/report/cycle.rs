@@ -1,10 +1,12 @@
 //! The report of a load cycle: key figures, orbit, curves over crank angle, maps, convergence.
 
 use super::chart::{Chart, Mark, Series};
+use super::detail::Detail;
 use super::film::{self, in_film};
 use super::format::{MICROMETRE, Unit, Units, angle, significant};
 use super::page::{
-    Card, Figure, Page, Section, badge, checks, error, exact, outer_circle, subject,
+    Card, Figure, FilmPart, Page, Section, Table, badge, checks, error, exact, outer_circle,
+    subject,
 };
 use super::spark::spark;
 use super::{cycle_tables, figures, surfaces};
@@ -14,23 +16,71 @@ use serde_json::{Value, json};
 use sommerfeld_bearing::CyclePoint;
 use sommerfeld_film::Extreme;
 
+/// What a page shows of one cycle.
+pub(super) struct CyclePart {
+    /// Key figures.
+    pub cards: Vec<Card>,
+    /// Tables in the order of the page.
+    pub tables: Vec<Table>,
+    /// The film through the cycle, if the film model has fields.
+    pub film: Option<FilmPart>,
+    /// Figures by the question they answer.
+    pub sections: Vec<Section>,
+    /// Where an oil hole in the journal would be loaded least, in words; empty without fields.
+    pub hole: String,
+    /// Data of the figures.
+    pub data: Value,
+}
+
 /// Fills cards, figures and tables; returns the data of the figures.
 pub(super) fn fill(page: &mut Page, header: &Header, cycle: &CycleResults) -> Value {
-    let units = units(cycle);
+    let part = part(
+        header,
+        cycle,
+        &units(std::iter::once(cycle)),
+        &Detail::ALONE,
+    );
     page.subject = subject(&cycle.bearing);
-    page.cards = cards(header, cycle, &units);
-    page.tables = cycle_tables::all(header, cycle, &units);
+    page.cards = part.cards;
+    page.tables = part.tables;
+    page.film = part.film;
+    page.sections = part.sections;
+    part.data
+}
+
+/// One cycle in the units of its page and as finely as the page has room for.
+pub(super) fn part(
+    header: &Header,
+    cycle: &CycleResults,
+    units: &Units,
+    detail: &Detail,
+) -> CyclePart {
+    let mut part = CyclePart {
+        cards: cards(header, cycle, units),
+        tables: cycle_tables::all(header, cycle, units),
+        film: None,
+        sections: Vec::new(),
+        hole: String::new(),
+        data: json!({}),
+    };
     if cycle.orbit.points.is_empty() {
-        return json!({});
+        return part;
     }
     let fields = cycle.fields.as_ref();
-    let instants = fields.map_or_else(Vec::new, |fields| film::instants(cycle, fields));
-    page.film = instants
+    let instants = fields.map_or_else(Vec::new, |fields| film::instants(cycle, fields, detail));
+    part.film = instants
         .first()
-        .map(|first| film::part(&cycle.bearing, first.field, instants.len()));
-    page.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
-    page.sections.extend(fields.map(|fields| {
-        Section {
+        .map(|first| film::part(&cycle.bearing, first.field, instants.len(), detail));
+    part.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
+    if let Some(fields) = fields {
+        part.hole = surfaces::hole_sentence(&cycle.bearing, &fields.on_journal, units);
+        // Where speeds share the places of the figures, the sentence stands with each speed.
+        let caption = if detail.is_packed {
+            "Dashed circle: where an oil hole in the journal would be loaded least."
+        } else {
+            &part.hole
+        };
+        part.sections.push(Section {
             id: "surfaces",
             title: "What the surfaces have seen",
             lead:
@@ -38,23 +88,28 @@ pub(super) fn fill(page: &mut Page, header: &Header, cycle: &CycleResults) -> Va
                film wears it. The journal turns under the load, so that its maps differ from those \
                of the shell."
                     .to_owned(),
-            figures: surfaces::figures(cycle, fields, &units),
-        }
-    }));
-    json!({
-        "units": figures::unit_symbols(&units),
-        "cycle": figures::cycle_data(header, cycle, &units),
-        "charts": charts(cycle, &units),
-        "film": film::film_data(&cycle.bearing, &instants, &units),
-        "surfaces": fields.map(|fields| surfaces::surface_data(&cycle.bearing, fields, &units)),
-    })
+            figures: surfaces::figures(caption),
+        });
+    }
+    part.data = json!({
+        "units": figures::unit_symbols(units),
+        "cycle": figures::cycle_data(header, cycle, units, detail),
+        "charts": charts(cycle, units, detail),
+        "film": film::film_data(&cycle.bearing, &instants, units, detail),
+        "surfaces": fields
+            .map(|fields| surfaces::surface_data(&cycle.bearing, fields, units, detail)),
+    });
+    part
 }
 
-fn units(cycle: &CycleResults) -> Units {
+/// Units that suit the largest numbers of all cycles of a page.
+pub(super) fn units<'a>(cycles: impl Iterator<Item = &'a CycleResults> + Clone) -> Units {
     let largest = |value: &dyn Fn(&CyclePoint) -> f64| {
-        cycle
-            .largest(|point| value(point).abs())
-            .map_or(f64::NAN, |point| value(point).abs())
+        let points = cycles.clone().flat_map(|cycle| &cycle.orbit.points);
+        points
+            .map(|point| value(point).abs())
+            .filter(|value| value.is_finite())
+            .fold(f64::NAN, f64::max)
     };
     Units::choose(
         largest(&|p| magnitude(p.load)),
@@ -385,13 +440,13 @@ fn has_feed_flows(cycle: &CycleResults) -> bool {
 }
 
 /// Figures that need no drawing of their own, by their kind.
-fn charts(cycle: &CycleResults, units: &Units) -> Value {
+fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
     let points = &cycle.orbit.points;
-    let kept = figures::thinned(points.len(), figures::CURVE_POINTS);
+    let kept = figures::thinned(points.len(), detail.curve_points);
     let over = |value: &dyn Fn(usize) -> f64| kept.iter().map(|&i| value(i)).collect::<Vec<_>>();
     let series = |name: String, mark, value: &dyn Fn(usize) -> f64| Series {
         name,
-        x: over(&|i| degrees(points[i].crank_angle)),
+        x: None,
         y: over(value),
         mark,
     };
@@ -402,7 +457,7 @@ fn charts(cycle: &CycleResults, units: &Units) -> Value {
             y_range,
             series,
         }
-        .data()
+        .data(detail)
     };
     let dots =
         |name: &str, value: &dyn Fn(usize) -> f64| series(name.to_owned(), Mark::Dots, value);
@@ -414,11 +469,17 @@ fn charts(cycle: &CycleResults, units: &Units) -> Value {
             dots("thinnest film", &|i| place(thinnest(i)).0),
             dots("peak pressure", &|i| place(highest(i)).0),
         ]),
-        "place-along": chart("Axial position [mm]", Some([-edge, edge]), vec![
-            dots("thinnest film", &|i| place(thinnest(i)).1),
-            dots("peak pressure", &|i| place(highest(i)).1),
-        ]),
     });
+    if moves_along(cycle) {
+        charts["place-along"] = chart(
+            "Axial position [mm]",
+            Some([-edge, edge]),
+            vec![
+                dots("thinnest film", &|i| place(thinnest(i)).1),
+                dots("peak pressure", &|i| place(highest(i)).1),
+            ],
+        );
+    }
     if has_feed_flows(cycle) {
         let flows = (0..cycle.bearing.feeds.len()).map(|feed| {
             let name = cycle_tables::feed_name(&cycle.bearing.feeds[feed], feed);

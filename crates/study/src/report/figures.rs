@@ -2,6 +2,7 @@
 //!
 //! Long tables are thinned for drawing only: the CSV files hold every row.
 
+use super::detail::Detail;
 use super::format::{MICROMETRE, MILLIRADIAN, Unit, Units, angle};
 use crate::limits::Quantity;
 use crate::results::{
@@ -31,37 +32,48 @@ pub(super) fn thinned(count: usize, wanted: usize) -> Vec<usize> {
 }
 
 /// Curves over crank angle, marks on orbit and load, extremes and limits.
-pub(super) fn cycle_data(header: &Header, cycle: &CycleResults, units: &Units) -> Value {
+pub(super) fn cycle_data(
+    header: &Header,
+    cycle: &CycleResults,
+    units: &Units,
+    detail: &Detail,
+) -> Value {
     let points = &cycle.orbit.points;
-    let kept = thinned(points.len(), CURVE_POINTS);
+    let kept = thinned(points.len(), detail.curve_points);
     let clearance = cycle.bearing.radial_clearance;
-    let curve = |unit: Unit, value: &dyn Fn(&CyclePoint) -> f64| -> Value {
+    let over = |unit: Unit, value: &dyn Fn(&CyclePoint) -> f64| -> Vec<f64> {
         kept.iter()
-            .map(|&index| short(value(&points[index]) * unit.factor))
+            .map(|&index| value(&points[index]) * unit.factor)
             .collect()
+    };
+    let curve = |unit: Unit, value: &dyn Fn(&CyclePoint) -> f64| detail.numbers(&over(unit, value));
+    // What the script can make of other curves is not sent where many cycles share the page.
+    let made = |unit: Unit, value: &dyn Fn(&CyclePoint) -> f64| {
+        (!detail.is_packed).then(|| curve(unit, value))
     };
     let one = super::format::ONE;
     let tilted = points.iter().any(|point| point.state.tilt != [0.0, 0.0]);
     json!({
-        "angle": curve(one, &|p| degrees(p.crank_angle)),
+        "angle": detail.places(&over(one, &|p| degrees(p.crank_angle))),
         "load_x": curve(units.force, &|p| p.load[0]),
         "load_y": curve(units.force, &|p| p.load[1]),
-        "load": curve(units.force, &|p| magnitude(p.load)),
+        "load": made(units.force, &|p| magnitude(p.load)),
         "x": curve(one, &|p| p.state.position[0] / clearance),
         "y": curve(one, &|p| p.state.position[1] / clearance),
-        "eccentricity": curve(one, &|p| cycle.relative_eccentricity(p)),
+        "eccentricity": made(one, &|p| cycle.relative_eccentricity(p)),
         "thickness": curve(MICROMETRE, &|p| p.summary.minimum_film_thickness.value),
         "pressure": curve(units.pressure, &|p| p.summary.peak_film_pressure.value),
         "friction_power": curve(units.power, &|p| p.summary.friction_power),
         "squeeze_power": curve(units.power, &|p| p.summary.squeeze_power),
-        "power": curve(units.power, &|p| p.summary.power_loss()),
-        "side_flow": curve(units.flow, &|p| p.summary.side_flow[0] + p.summary.side_flow[1]),
+        "power": made(units.power, &|p| p.summary.power_loss()),
+        "side_flow": made(units.flow, &|p| p.summary.side_flow[0] + p.summary.side_flow[1]),
         "feed_flow": curve(units.flow, &|p| p.summary.feed_flow),
         "storage": curve(units.flow, &|p| p.summary.storage_rate),
         "side_front": curve(units.flow, &|p| p.summary.side_flow[0]),
         "side_rear": curve(units.flow, &|p| p.summary.side_flow[1]),
-        "journal_load_x": curve(units.force, &|p| on_journal(p)[0]),
-        "journal_load_y": curve(units.force, &|p| on_journal(p)[1]),
+        "journal_load_x": made(units.force, &|p| on_journal(p)[0]),
+        "journal_load_y": made(units.force, &|p| on_journal(p)[1]),
+        "journal_angle": curve(one, &|p| degrees(p.state.journal_angle)),
         "journal_speed": curve(one, &|p| p.state.journal_speed),
         "tilt_x": tilted.then(|| curve(MILLIRADIAN, &|p| p.state.tilt[0])),
         "tilt_y": tilted.then(|| curve(MILLIRADIAN, &|p| p.state.tilt[1])),
@@ -112,7 +124,7 @@ fn extreme_mark(point: &CyclePoint, units: &Units, is_thickness: bool) -> Value 
     })
 }
 
-fn limits(header: &Header, quantity: Quantity, unit: Unit) -> Value {
+pub(super) fn limits(header: &Header, quantity: Quantity, unit: Unit) -> Value {
     header
         .limits
         .iter()

@@ -1,21 +1,18 @@
 //! The film at single instants: maps of pressure and film fraction, the film as a body, and what a
 //! reader asks of each instant.
 
+use super::detail::Detail;
 use super::figures::{mid_plane, outline, place_mark, short};
 use super::format::{MICROMETRE, Units, angle, plain_number, significant};
 use super::packing::{Blocks, Depth, Keep, packed};
 use super::page::FilmPart;
 use crate::results::{
-    CycleField, CycleFields, CycleResults, FieldSnapshot, MOST_FRAMES, degrees, degrees_around,
-    magnitude, place,
+    CycleField, CycleFields, CycleResults, FieldSnapshot, degrees, degrees_around, magnitude, place,
 };
 use serde_json::{Value, json};
 use sommerfeld_bearing::CyclePoint;
 use sommerfeld_film::{Bearing, Extreme, FilmSummary, JournalState};
 
-/// Blocks around and along in each of many frames: with two bytes for pressure and one each for
-/// film fraction and thickness, [`MOST_FRAMES`] frames are 2.2 MB of text.
-const FRAME_BLOCKS: [usize; 2] = [144, 40];
 /// Blocks around and along of a film that is alone.
 const SINGLE_BLOCKS: [usize; 2] = [360, 96];
 
@@ -36,13 +33,18 @@ pub(super) struct Instant<'a> {
 /// The recorded instants of a cycle with the points of the orbit they belong to, by ascending crank
 /// angle. The instant of the thinnest film is among them: where there is no room for one more frame
 /// it stands for the nearest.
-pub(super) fn instants<'a>(cycle: &'a CycleResults, fields: &'a CycleFields) -> Vec<Instant<'a>> {
+pub(super) fn instants<'a>(
+    cycle: &'a CycleResults,
+    fields: &'a CycleFields,
+    detail: &Detail,
+) -> Vec<Instant<'a>> {
     let worst = &fields.worst;
-    let mut films: Vec<&CycleField> = fields.frames.iter().take(MOST_FRAMES).collect();
+    let stride = fields.frames.len().div_ceil(detail.frames).max(1);
+    let mut films: Vec<&CycleField> = fields.frames.iter().step_by(stride).collect();
     let away = |film: &CycleField| (film.crank_angle - worst.crank_angle).abs();
     let nearest = (0..films.len()).min_by(|&a, &b| away(films[a]).total_cmp(&away(films[b])));
     match nearest {
-        Some(nearest) if away(films[nearest]) < 1e-9 || films.len() == MOST_FRAMES => {
+        Some(nearest) if away(films[nearest]) < 1e-9 || films.len() >= detail.frames => {
             films[nearest] = worst;
         }
         _ => films.push(worst),
@@ -99,8 +101,13 @@ pub(super) fn in_film(extreme: &Extreme, width: f64) -> String {
 }
 
 /// The words around the pictures of the film.
-pub(super) fn part(bearing: &Bearing, first: &FieldSnapshot, frames: usize) -> FilmPart {
-    let blocks = blocks(first, frames);
+pub(super) fn part(
+    bearing: &Bearing,
+    first: &FieldSnapshot,
+    frames: usize,
+    detail: &Detail,
+) -> FilmPart {
+    let blocks = blocks(first, frames, detail);
     let thinned = if blocks.is_coarser() {
         format!(
             " Drawn in blocks of {} × {} cells, which keep the largest pressure and the smallest \
@@ -147,9 +154,9 @@ pub(super) fn part(bearing: &Bearing, first: &FieldSnapshot, frames: usize) -> F
     }
 }
 
-fn blocks(field: &FieldSnapshot, frames: usize) -> Blocks {
-    let most = if frames > 1 {
-        FRAME_BLOCKS
+fn blocks(field: &FieldSnapshot, frames: usize, detail: &Detail) -> Blocks {
+    let most = if frames > 1 || detail.is_packed {
+        detail.frame_blocks
     } else {
         SINGLE_BLOCKS
     };
@@ -161,11 +168,16 @@ fn around(field: &FieldSnapshot) -> Vec<f64> {
 }
 
 /// The instants for the script; nothing where there is none.
-pub(super) fn film_data(bearing: &Bearing, instants: &[Instant<'_>], units: &Units) -> Value {
+pub(super) fn film_data(
+    bearing: &Bearing,
+    instants: &[Instant<'_>],
+    units: &Units,
+    detail: &Detail,
+) -> Value {
     let Some(first) = instants.first() else {
         return Value::Null;
     };
-    let blocks = blocks(first.field, instants.len());
+    let blocks = blocks(first.field, instants.len(), detail);
     let all = |values: fn(&FieldSnapshot) -> &[f64], keep, factor: f64| -> Vec<f64> {
         instants
             .iter()

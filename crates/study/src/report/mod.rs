@@ -7,6 +7,7 @@
 mod chart;
 mod cycle;
 mod cycle_tables;
+mod detail;
 mod dimensionless;
 mod dynamics;
 mod figures;
@@ -27,6 +28,8 @@ use page::Page;
 
 const FILE_NAME: &str = "report.html";
 const TEMPLATE: &str = include_str!("assets/report.html");
+const PARTS: &str = include_str!("assets/parts.html");
+const MACHINE: &str = include_str!("assets/machine.html");
 const STYLE: &str = include_str!("assets/report.css");
 /// The parts of the script in the order in which they need each other.
 const SCRIPT: &[&str] = &[
@@ -36,6 +39,7 @@ const SCRIPT: &[&str] = &[
     include_str!("assets/maps.js"),
     include_str!("assets/film.js"),
     include_str!("assets/sweep.js"),
+    include_str!("assets/machine.js"),
     include_str!("assets/start.js"),
 ];
 const DRAWING_LIBRARY: &str = include_str!("assets/plotly.min.js");
@@ -62,6 +66,8 @@ pub fn render(results: &Results) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_trim_blocks(true);
     environment.set_lstrip_blocks(true);
+    environment.add_template("parts.html", PARTS)?;
+    environment.add_template("machine.html", MACHINE)?;
     let library = if page.is_drawn() { DRAWING_LIBRARY } else { "" };
     environment.render_named_str(
         FILE_NAME,

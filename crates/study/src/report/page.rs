@@ -1,6 +1,7 @@
 //! What the template shows: plain text blocks, everything already formatted for reading.
 
 use super::format;
+use super::machine::MachinePart;
 use super::spark::Spark;
 use crate::limits::{LimitCheck, Quantity, Side, Verdict};
 use crate::results::{Header, VERSION, degrees_around, status_name};
@@ -44,6 +45,8 @@ pub(crate) struct Page {
     pub facts: Vec<(String, String)>,
     /// The study file.
     pub study_text: String,
+    /// The pages of an engine or shaft.
+    pub machine: Option<MachinePart>,
 }
 
 /// How the run ended.
@@ -254,6 +257,7 @@ impl Page {
             models: models(header),
             facts: facts(header),
             study_text: header.study_text.clone(),
+            machine: None,
         }
     }
 }
@@ -261,7 +265,10 @@ impl Page {
 impl Page {
     /// Whether there is anything to draw.
     pub fn is_drawn(&self) -> bool {
-        self.film.is_some() || !self.sections.is_empty() || !self.figures.is_empty()
+        self.machine.is_some()
+            || self.film.is_some()
+            || !self.sections.is_empty()
+            || !self.figures.is_empty()
     }
 }
 
@@ -370,7 +377,7 @@ fn answer(header: &Header) -> Answer {
 }
 
 /// A limit with the quantity, what was found and how far it is from the limit.
-fn check_with_value(check: &LimitCheck) -> Check {
+pub(crate) fn check_with_value(check: &LimitCheck) -> Check {
     let quantity = check.limit.quantity;
     let unit = match quantity {
         Quantity::MinimumFilmThickness => format::MICROMETRE,
@@ -446,6 +453,8 @@ fn analysis_in_words(analysis: &str) -> String {
         "equilibrium" => "Equilibrium under steady load".to_owned(),
         "coefficients" => "Equilibrium with stiffness and damping".to_owned(),
         "load-cycle" => "Journal orbit over a load cycle".to_owned(),
+        "engine" => "Engine: every bearing over the working cycle".to_owned(),
+        "shaft" => "Shaft: every bearing over its cycle".to_owned(),
         "sweep" => "Sweep over a base study".to_owned(),
         other => other.to_owned(),
     }

@@ -1,6 +1,7 @@
 //! The report of one state of the journal: position, load and force, pressure, results.
 
 use super::cycle_tables::{BALANCE_NOTE, REYNOLDS_NOTE, feed_name, reynolds_row};
+use super::detail::Detail;
 use super::film::{self, Instant, in_film};
 use super::format::{MICROMETRE, MILLIRADIAN, ONE, Unit, Units, angle, significant, size};
 use super::page::{
@@ -27,7 +28,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
     page.film = instant
         .first()
         .filter(|_| !figures.is_empty())
-        .map(|one| film::part(&steady.bearing, one.field, 1));
+        .map(|one| film::part(&steady.bearing, one.field, 1, &Detail::ALONE));
     if !figures.is_empty() {
         page.sections = vec![Section {
             id: "position",
@@ -53,7 +54,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
         "units": figures::unit_symbols(&units),
         "stability": dynamics::chart_data(steady),
         "position": figures::position_data(steady, &units),
-        "film": film::film_data(&steady.bearing, &instant, &units),
+        "film": film::film_data(&steady.bearing, &instant, &units, &Detail::ALONE),
         "middle": steady.field.as_ref().map(|field| film::middle_data(field, &units)),
     })
 }

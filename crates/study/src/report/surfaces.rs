@@ -1,17 +1,16 @@
 //! What the surfaces have seen over a cycle, on shell and journal, and where an oil hole in the
 //! journal would be loaded least.
 
+use super::detail::Detail;
 use super::figures::{outline, short};
 use super::format::{MICROMETRE, Units, angle, plain_number};
-use super::packing::{Blocks, Depth, Keep, packed};
+use super::packing::{Blocks, Keep, packed};
 use super::page::Figure;
-use crate::results::{AccumulatedMap, CycleFields, CycleResults, degrees, degrees_around};
+use crate::results::{AccumulatedMap, CycleFields, degrees, degrees_around};
 use serde_json::{Value, json};
 use sommerfeld_film::{Bearing, Carrier, Feed, FeedShape};
 use std::f64::consts::{PI, TAU};
 
-/// Blocks around and along of a map.
-const MAP_BLOCKS: [usize; 2] = [360, 96];
 /// Oil hole over bore diameter where the study has no hole in the journal: usual for crankshafts.
 const USUAL_HOLE: f64 = 0.1;
 /// Pressures this share of the range above the smallest one count as equally small.
@@ -161,11 +160,11 @@ pub(super) fn hole_sentence(bearing: &Bearing, map: &AccumulatedMap, units: &Uni
     text
 }
 
-/// Maps of both surfaces side by side: kind of the drawing, title, what one sees.
-pub(super) fn figures(cycle: &CycleResults, fields: &CycleFields, units: &Units) -> Vec<Figure> {
+/// Maps of both surfaces side by side: kind of the drawing, title, what one sees. `hole` tells where
+/// an oil hole in the journal would be loaded least.
+pub(super) fn figures(hole: &str) -> Vec<Figure> {
     let shell_frame = "Shell, angle from +X of the shell frame.";
     let journal_frame = "Journal, angle from +X of the journal.";
-    let hole = hole_sentence(&cycle.bearing, &fields.on_journal, units);
     let figure = |kind, title, caption: String| Figure {
         kind,
         title,
@@ -220,7 +219,12 @@ pub(super) fn figures(cycle: &CycleResults, fields: &CycleFields, units: &Units)
 }
 
 /// Both surfaces for the script.
-pub(super) fn surface_data(bearing: &Bearing, fields: &CycleFields, units: &Units) -> Value {
+pub(super) fn surface_data(
+    bearing: &Bearing,
+    fields: &CycleFields,
+    units: &Units,
+    detail: &Detail,
+) -> Value {
     let feeds = |carrier: Carrier| -> Value {
         bearing
             .feeds
@@ -240,16 +244,16 @@ pub(super) fn surface_data(bearing: &Bearing, fields: &CycleFields, units: &Unit
     });
     json!({
         "half_width": short(bearing.width * 500.0),
-        "shell": map_data(&fields.on_shell, feeds(Carrier::Shell), units),
-        "journal": map_data(&fields.on_journal, feeds(Carrier::Journal), units),
+        "shell": map_data(&fields.on_shell, feeds(Carrier::Shell), units, detail),
+        "journal": map_data(&fields.on_journal, feeds(Carrier::Journal), units, detail),
         "quiet": quiet,
     })
 }
 
-fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units) -> Value {
+fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units, detail: &Detail) -> Value {
     let angles: Vec<f64> = map.angles.iter().copied().map(degrees_around).collect();
     let axial: Vec<f64> = map.axial.iter().map(|z| z * 1e3).collect();
-    let blocks = Blocks::of(&angles, axial.len(), MAP_BLOCKS);
+    let blocks = Blocks::of(&angles, axial.len(), detail.map_blocks);
     let numbers = |values: Vec<f64>| values.into_iter().map(short).collect::<Value>();
     let field = |values: &[f64], keep, factor: f64| {
         let gathered: Vec<f64> = blocks
@@ -257,7 +261,7 @@ fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units) -> Value {
             .into_iter()
             .map(|value| value * factor)
             .collect();
-        packed(&gathered, Depth::Word)
+        packed(&gathered, detail.map_depth)
     };
     let pressure = units.pressure.factor;
     json!({

@@ -290,7 +290,8 @@ impl Results {
                 Quantity::PowerLoss => Some(steady.summary.power_loss()),
             },
             Body::LoadCycle(cycle) => cycle.limited_value(quantity),
-            Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
+            Body::Machine(machine) => machine.worst(quantity).map(|worst| worst.value),
+            Body::Dimensionless(_) | Body::Sweep(_) => None,
         }
     }
 }

@@ -74,6 +74,14 @@ pub enum RunError {
         /// What the film says.
         source: FilmError,
     },
+    /// Crankshaft, supports or torsional chain of a machine cannot be computed.
+    #[error("{place}: {reason}")]
+    Machine {
+        /// The part and the speed.
+        place: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Results could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),
@@ -320,7 +328,10 @@ fn stays_aligned(duty: &Duty) -> bool {
 }
 
 /// The film model that the study names.
-fn film_of(case: &BearingCase, settings: &FilmSettings) -> Result<Box<dyn FilmForce>, FilmError> {
+fn film_of(
+    case: &BearingCase,
+    settings: &FilmSettings,
+) -> Result<Box<dyn FilmForce + Send>, FilmError> {
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
     Ok(match settings.model {
         FilmModel::Field if stays_aligned(&case.duty) => Box::new(FilmSolver::aligned(

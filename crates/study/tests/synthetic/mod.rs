@@ -3,6 +3,8 @@
 //! Simple formulas, no physics: orbit, film and power do not belong to the load. They exercise
 //! every figure and table, nothing more.
 
+pub mod machine;
+
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Ends, Extreme, Feed, FeedFlow, FeedLine, FeedShape, FilmShear,
@@ -306,14 +308,17 @@ fn summary(state: &JournalState, peak: f64, turned: f64) -> FilmSummary {
 
 /// A bump of pressure ahead of the narrowest gap, a ruptured region behind it.
 fn field(state: &JournalState, peak: f64) -> FieldSnapshot {
-    const AROUND: usize = 128;
-    const ALONG: usize = 32;
-    let width = bearing().width;
-    let angles: Vec<f64> = (0..AROUND)
-        .map(|i| (i as f64 + 0.5) * TAU / AROUND as f64)
+    field_on([128, 32], bearing().width, state, peak)
+}
+
+/// The same on a grid and over a width, m.
+fn field_on(grid: [usize; 2], width: f64, state: &JournalState, peak: f64) -> FieldSnapshot {
+    let [around, along] = grid;
+    let angles: Vec<f64> = (0..around)
+        .map(|i| (i as f64 + 0.5) * TAU / around as f64)
         .collect();
-    let axial: Vec<f64> = (0..ALONG)
-        .map(|j| ((j as f64 + 0.5) / ALONG as f64 - 0.5) * width)
+    let axial: Vec<f64> = (0..along)
+        .map(|j| ((j as f64 + 0.5) / along as f64 - 0.5) * width)
         .collect();
     let mut snapshot = FieldSnapshot {
         pressure: Vec::new(),

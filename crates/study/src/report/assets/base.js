@@ -1,9 +1,19 @@
 "use strict";
-// What all figures share: data, theme, axes. Later parts add their drawings to `report.drawings`,
-// each a function that takes the element and returns traces and layout.
+// What all figures share: data, theme, axes.
+//
+// A view is a part of the page with data of its own: all of it, or one bearing of many at one speed.
+// It inherits from `report` and has `root`, its element, and `data`. Later files put their part into
+// `report.parts`; each part is run for each view and adds to `drawings`, by kind, functions that take
+// the element and return traces and layout.
 ((report) => {
-  report.data = JSON.parse(document.getElementById("data").textContent);
-  report.drawings = {};
+  report.parts = [];
+  report.view = (root, data) => {
+    const view = Object.assign(Object.create(report), { root, data, drawings: {} });
+    for (const part of report.parts) { part(view); }
+    return view;
+  };
+  // The element of a view that plays a part in it.
+  report.find = function find(part) { return this.root.querySelector(`[data-part="${part}"]`); };
 
   // Colours come from the style sheet, so that light, dark and print agree with the page.
   const theme = (report.theme = {});
@@ -58,10 +68,13 @@
     return { angles: turn(angles).map((angle) => report.unrolled(angle, seam)), turn };
   };
 
-  const { film, position } = report.data;
-  const peak = film ? film.frames[film.jumps.length > 0 ? film.jumps[0].frame : 0].highest.angle : position ? 0 : 180;
-  report.seam = report.seamFor(peak ?? 180);
-  report.bearingAxis = () => report.axis("Bearing angle [°]", report.angleTicks(report.seam, 45));
+  report.parts.push((view) => {
+    const { film, position, cycle } = view.data;
+    const peak = film ? film.frames[film.jumps.length > 0 ? film.jumps[0].frame : 0].highest.angle : position ? 0 : 180;
+    view.seam = view.seamFor(peak ?? 180);
+    view.bearingAxis = () => view.axis("Bearing angle [°]", view.angleTicks(view.seam, 45));
+    if (cycle) { report.complete(cycle); }
+  });
 
   // A packed field as numbers: whole steps from the lowest value; the highest code is a gap.
   report.unpacked = (packed) => {
@@ -76,11 +89,43 @@
     return values;
   };
 
+  // A curve as a list, however it is written.
+  report.numbers = (curve) => {
+    if (!curve || Array.isArray(curve)) { return curve; }
+    if (curve.data === undefined) {
+      return Array.from({ length: curve.count }, (_, i) => (curve.step === undefined ? curve.even : curve.first + i * curve.step));
+    }
+    return Array.from(report.unpacked(curve), (value) => (Number.isNaN(value) ? null : value));
+  };
+
+  // The curves of a cycle as lists, with those that follow from others.
+  report.complete = (cycle) => {
+    for (const [name, curve] of Object.entries(cycle)) {
+      if (curve?.count !== undefined || curve?.data !== undefined) { cycle[name] = report.numbers(curve); }
+    }
+    const join = (names, value) => cycle[names[0]].map((first, i) => (first === null ? null : value(first, cycle[names[1]][i], cycle.journal_angle[i] * Math.PI / 180)));
+    cycle.load ??= join(["load_x", "load_y"], (x, y) => Math.hypot(x, y));
+    cycle.eccentricity ??= join(["x", "y"], (x, y) => Math.hypot(x, y));
+    cycle.power ??= join(["friction_power", "squeeze_power"], (friction, squeeze) => friction + squeeze);
+    cycle.journal_load_x ??= join(["load_x", "load_y"], (x, y, a) => Math.cos(a) * x + Math.sin(a) * y);
+    cycle.journal_load_y ??= join(["load_x", "load_y"], (x, y, a) => Math.cos(a) * y - Math.sin(a) * x);
+  };
+
   // Rows along the axis, each around, of one frame.
   report.rows = (values, around, along, frame) => Array.from({ length: along }, (_, j) => {
     const start = (frame * along + j) * around;
     return Array.from(values.subarray(start, start + around), (value) => (Number.isNaN(value) ? null : value));
   });
+
+  // Whether the browser draws bodies; asked once, because it gives few places to draw them.
+  let solids = null;
+  report.hasSolids = () => {
+    if (solids === null) {
+      const canvas = document.createElement("canvas");
+      solids = Boolean(canvas.getContext("webgl2") ?? canvas.getContext("webgl"));
+    }
+    return solids;
+  };
 
   report.largest = (values) => {
     let largest = -Infinity;

@@ -1,14 +1,14 @@
 "use strict";
 // Curves over crank angle or bearing angle.
-((report) => {
+globalThis.sommerfeld.parts.push((report) => {
   const { theme, axis, layout, withUnit, bearingAxis, drawings } = report;
   const { cycle, middle, units, charts, stability } = report.data;
 
   const dashes = ["solid", "dash", "dot", "dashdot", "longdash"];
   const colours = ["first", "second", "third", "soft", "bad"];
 
-  function crankAxis() {
-    const [first, last] = [cycle.angle[0], cycle.angle[cycle.angle.length - 1]];
+  function crankAxis(angles) {
+    const [first, last] = [angles[0], angles[angles.length - 1]];
     return axis("Crank angle [°]", { range: [first, last], tick0: 0, dtick: last - first > 400 ? 90 : 45 });
   }
 
@@ -61,7 +61,7 @@
     const lines = limitLines(limits);
     const traces = [line(cycle.angle, values, title, 0, { showlegend: false }), ...extreme.traces,
       ...(failedColumn ? failedMarks(failedColumn) : [])];
-    return curves(traces, title, crankAxis(), {
+    return curves(traces, title, crankAxis(cycle.angle), {
       shapes: lines.shapes, annotations: [...lines.annotations, ...extreme.annotations] });
   }
 
@@ -72,14 +72,22 @@
       marker: { color: theme[colours[order % 5]], size: order === 0 ? 4.5 : 2.5 } };
   }
 
+  const bars = (series, order) => ({ type: "bar", x: series.x, y: series.y, name: series.name, hovertemplate: "%{y:.4~g}",
+    marker: { color: theme[colours[order % 5]] } });
+  const draw = { dots, bars, line: (one, order) => line(one.x, one.y, one.name, order) };
+
   function chart(name) {
-    const { x_title: xTitle, y_title: yTitle, y_range: range, series } = charts[name];
+    if (charts[name].nothing) { return charts[name]; }
+    const { x_title: xTitle, y_title: yTitle, y_range: range } = charts[name];
+    const series = charts[name].series.map((one) => Object.assign({}, one, { x: report.numbers(one.x) ?? cycle.angle, y: report.numbers(one.y) }));
     const isAngle = yTitle.startsWith("Bearing angle");
     const places = (one) => (isAngle ? Object.assign({}, one, { y: one.y.map((angle) => (angle === null ? null : report.unrolled(angle, report.seam))),
       names: one.y }) : one);
-    const traces = series.map(places).map((one, order) => (one.dots ? dots(one, order) : line(one.x, one.y, one.name, order)));
-    const isCrank = cycle && xTitle.startsWith("Crank angle");
-    const figure = curves(traces, yTitle, isCrank ? crankAxis() : axis(xTitle));
+    const traces = series.map(places).map((one, order) => draw[one.mark](one, order));
+    const isCrank = xTitle.startsWith("Crank angle");
+    const figure = curves(traces, yTitle, isCrank ? crankAxis(cycle ? cycle.angle : series[0].x) : axis(xTitle));
+    // A loop goes back over its own places: the nearest point is meant, not the column.
+    if (xTitle.startsWith("Displaced")) { figure.layout.hovermode = "closest"; }
     if (range) { figure.layout.yaxis.range = range; }
     if (isAngle) { Object.assign(figure.layout.yaxis, report.angleTicks(report.seam, 90)); }
     return figure;
@@ -94,14 +102,14 @@
       thickness: (element) => judged(element, cycle.thickness, "Film thickness [µm]", cycle.thinnest, 30, cycle.thickness_limits, 1),
       pressure: (element) => judged(element, cycle.pressure, withUnit("Film pressure", units.pressure), cycle.highest, 4, cycle.pressure_limits),
       power: () => curves(over(["total", cycle.power], ["friction", cycle.friction_power], ["squeeze", cycle.squeeze_power]),
-        withUnit("Power", units.power), crankAxis()),
+        withUnit("Power", units.power), crankAxis(cycle.angle)),
       flow: () => curves(over(["feed", cycle.feed_flow], ["side front", cycle.side_front], ["side rear", cycle.side_rear],
-        ["storage", cycle.storage]), withUnit("Flow", units.flow), crankAxis()),
+        ["storage", cycle.storage]), withUnit("Flow", units.flow), crankAxis(cycle.angle)),
       eccentricity: () => curves([line(cycle.angle, cycle.eccentricity, "relative eccentricity", 0, { showlegend: false }),
-        ...failedMarks(2)], "Relative eccentricity [–]", crankAxis()),
+        ...failedMarks(2)], "Relative eccentricity [–]", crankAxis(cycle.angle)),
       load: () => curves(over(["magnitude", cycle.load], ["x", cycle.load_x], ["y", cycle.load_y]),
-        withUnit("Load", units.force), crankAxis()),
-      tilt: () => curves(over(["about x", cycle.tilt_x], ["about y", cycle.tilt_y]), "Tilt [mrad]", crankAxis()),
+        withUnit("Load", units.force), crankAxis(cycle.angle)),
+      tilt: () => curves(over(["about x", cycle.tilt_x], ["about y", cycle.tilt_y]), "Tilt [mrad]", crankAxis(cycle.angle)),
     });
   }
   if (stability) {
@@ -136,4 +144,4 @@
       ], "Film thickness [µm]", bearingAxis()),
     });
   }
-})(globalThis.sommerfeld);
+});

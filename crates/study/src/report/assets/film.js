@@ -1,6 +1,6 @@
 "use strict";
 // The film at an instant: body and maps, driven together by one slider.
-((report) => {
+globalThis.sommerfeld.parts.push((report) => {
   const { theme, axis, layout, drawings, unpacked, rows, withUnit } = report;
   const { film, units } = report.data;
   if (!film) { return; }
@@ -168,10 +168,7 @@
     return { traces: [sheet], scene };
   }
 
-  const hasSolids = (() => {
-    const canvas = document.createElement("canvas");
-    return Boolean(canvas.getContext("webgl2") ?? canvas.getContext("webgl"));
-  })();
+  const hasSolids = report.hasSolids();
 
   drawings["film-solid"] = (element) => {
     if (!hasSolids) {
@@ -189,15 +186,15 @@
 
   // ---- slider, buttons, read-outs ------------------------------------------------------------
 
-  const slider = document.getElementById("frame");
-  const play = document.getElementById("play");
-  const jumps = document.getElementById("jumps");
+  const slider = report.find("frame");
+  const play = report.find("play");
+  const jumps = report.find("jumps");
 
   function readOut() {
     const now = frame();
     const values = { crank: [now.crank_text, `instant ${shown + 1} of ${film.frames.length}`], load: [now.load_text, now.load_place], thickness: [now.thickness_text, now.thickness_place],
       pressure: [now.pressure_text, now.pressure_place], eccentricity: [now.eccentricity_text, now.eccentricity_place] };
-    for (const element of document.querySelectorAll("[data-read]")) {
+    for (const element of report.root.querySelectorAll("[data-read]")) {
       const [value, place] = values[element.dataset.read];
       const small = document.createElement("small");
       small.textContent = place;
@@ -216,10 +213,10 @@
     const drawn = shown;
     await report.draw(["film-pressure", "film-fraction"]);
     if (!playing) { await new Promise((done) => { setTimeout(done, rest); }); }
-    if (isStale) { return; }
+    if (isStale || report.isLeft) { return; }
     await report.draw(["film-solid"]);
     // The page tells which instant its pictures show, once they do.
-    document.getElementById("film").dataset.shown = drawn;
+    report.find("film").dataset.shown = drawn;
   }
 
   function show(index) {
@@ -262,34 +259,40 @@
     }
   }
 
+  // Called when the reader leaves the page on which the film plays.
+  report.stop = () => { if (playing) { stop(); } };
+
   if (slider) {
     slider.max = film.frames.length - 1;
-    slider.addEventListener("input", () => {
+    slider.oninput = () => {
       if (playing) { stop(); }
       show(Number(slider.value));
-    });
-    play.addEventListener("click", () => {
+    };
+    play.onclick = () => {
       if (playing) { stop(); return; }
       playing = {};
       play.classList.add("playing");
       play.setAttribute("aria-label", "Pause");
       run(playing);
-    });
+    };
+    jumps.replaceChildren();
     for (const { name, frame: target } of film.jumps) {
       const button = document.createElement("button");
       button.type = "button";
       button.textContent = `${name} ${film.frames[target].crank_text}`;
-      button.addEventListener("click", () => { stop(); show(target); });
+      button.onclick = () => { stop(); show(target); };
       jumps.append(button);
     }
   }
-  for (const button of document.querySelectorAll("[data-choice]")) {
-    button.addEventListener("click", () => {
+  for (const button of report.root.querySelectorAll("[data-choice]")) {
+    button.onclick = () => {
       choice[button.dataset.choice] = button.dataset.value;
       for (const other of button.parentElement.children) { other.setAttribute("aria-pressed", String(other === button)); }
       refresh();
-    });
+    };
+    // A view that takes over a place of the page keeps what the reader chose there.
+    if (button.getAttribute("aria-pressed") === "true") { choice[button.dataset.choice] = button.dataset.value; }
   }
   readOut();
-  document.getElementById("film").dataset.shown = shown;
-})(globalThis.sommerfeld);
+  report.find("film").dataset.shown = shown;
+});

@@ -1,6 +1,6 @@
 "use strict";
 // Maps over the unrolled surface, and what shell and journal have seen.
-((report) => {
+globalThis.sommerfeld.parts.push((report) => {
   const { theme, axis, layout, drawings, unpacked, rows, scales } = report;
   const { surfaces, units } = report.data;
 
@@ -73,4 +73,4 @@
       };
     }
   }
-})(globalThis.sommerfeld);
+});

@@ -1,6 +1,6 @@
 "use strict";
 // Planes with equal scales: load, orbit, position of the journal.
-((report) => {
+globalThis.sommerfeld.parts.push((report) => {
   const { theme, axis, layout, withUnit, drawings } = report;
   const { cycle, position, units } = report.data;
 
@@ -82,14 +82,14 @@
   }
 
   function markDots(marks) {
-    return { x: marks.map((mark) => mark.x), y: marks.map((mark) => mark.y), mode: "markers", hoverinfo: "skip",
+    return { x: marks.map((mark) => mark.x), y: marks.map((mark) => mark.y), mode: "markers", showlegend: false, hoverinfo: "skip",
       marker: { color: theme.paper, size: 8, line: { color: theme.second, width: 2 } } };
   }
 
   const whole = "crank angle %{customdata:.1f}°<br>x %{x:.4~g}, y %{y:.4~g}<extra></extra>";
 
   function path(xs, ys, color) {
-    return { x: xs, y: ys, mode: "lines", line: { color: color ?? theme.first, width: 1.6, simplify: false }, customdata: cycle.angle,
+    return { x: xs, y: ys, mode: "lines", line: { color: color ?? theme.first, width: 1.6, simplify: false }, showlegend: false, customdata: cycle.angle,
       hovertemplate: whole };
   }
 
@@ -114,18 +114,25 @@
     const [low, high] = [report.smallest(speed), report.largest(speed)];
     const varies = coloured && high - low > 1e-6 * Math.abs(high);
     const bar = { title: { text: "Journal speed [rad/s]", side: "right" }, thickness: 11, outlinewidth: 0, len: 0.72, ticks: "outside", ticklen: 3, nticks: 5 };
-    return { x: pick(xs), y: pick(ys), mode: "markers", customdata: kept.map((index) => [cycle.angle[index], cycle.journal_speed[index]]),
+    return { x: pick(xs), y: pick(ys), mode: "markers", showlegend: false, customdata: kept.map((index) => [cycle.angle[index], cycle.journal_speed[index]]),
       hovertemplate: "crank angle %{customdata[0]:.1f}°<br>x %{x:.4~g}, y %{y:.4~g}<br>journal speed %{customdata[1]:.4~g} rad/s<extra></extra>",
       marker: varies ? { color: speed, colorscale: "Viridis", size: 6, showscale: true, colorbar: bar, line: { color: theme.paper, width: 0.5 } }
         : { color: theme.first, size: 4.5 } };
   }
 
-  function loadPolar(element, xs, ys, key) {
-    const box = squareBox(xs, ys);
+  function loadPolar(element, xs, ys, key, besides) {
+    const box = squareBox([...xs, ...besides.flatMap((one) => one.x)], [...ys, ...besides.flatMap((one) => one.y)]);
     const marks = cycle.marks.map((mark) => ({ label: mark.label, x: mark[key][0], y: mark[key][1] }));
     return plane(element, box, ["Load x", "Load y"], units.force,
-      [path(xs, ys, theme.faint), tenthDots(xs, ys, true), markDots(marks)],
-      { annotations: markLabels(element, box, marks, [[xs, ys]]), margin: { l: 58, r: 8, t: 12, b: 46 } });
+      [...besides, path(xs, ys, theme.faint), tenthDots(xs, ys, true), markDots(marks)],
+      { annotations: markLabels(element, box, marks, [[xs, ys]]), margin: { l: 58, r: 8, t: besides.length ? 34 : 12, b: 46 }, showlegend: besides.length > 0 });
+  }
+
+  // The load that hinges at the mains would give, where the run had an elastic shaft.
+  function hinged() {
+    if (!cycle.hinged) { return []; }
+    return [{ x: cycle.hinged_x, y: cycle.hinged_y, mode: "lines", name: "hinges at the mains (determinate)", customdata: cycle.angle, hovertemplate: whole,
+      line: { color: theme.second, width: 1.3, dash: "dot", simplify: false } }];
   }
 
   const circle = (radius, style) => ({ type: "circle", x0: -radius, x1: radius, y0: -radius, y1: radius, layer: "between", line: style });
@@ -151,8 +158,8 @@
   }
 
   function failedPlaces() {
-    const angles = new Set(cycle.failed.map((row) => row[0]));
-    const places = cycle.angle.map((_, index) => index).filter((index) => angles.has(cycle.angle[index]));
+    const places = cycle.angle.map((_, index) => index)
+      .filter((index) => cycle.failed.some(([angle]) => Math.abs(angle - cycle.angle[index]) < 1e-3));
     if (places.length === 0) { return []; }
     return [{ x: places.map((i) => cycle.x[i]), y: places.map((i) => cycle.y[i]), mode: "markers",
       hovertemplate: "not converged<extra></extra>", marker: { symbol: "x-thin", size: 9, line: { color: theme.bad, width: 2 } } }];
@@ -191,9 +198,9 @@
   }
 
   if (cycle) {
-    drawings["load-polar"] = (element) => loadPolar(element, cycle.load_x, cycle.load_y, "load");
-    drawings["load-polar-journal"] = (element) => loadPolar(element, cycle.journal_load_x, cycle.journal_load_y, "journal_load");
+    drawings["load-polar"] = (element) => loadPolar(element, cycle.load_x, cycle.load_y, "load", hinged());
+    drawings["load-polar-journal"] = (element) => loadPolar(element, cycle.journal_load_x, cycle.journal_load_y, "journal_load", []);
     drawings.orbit = orbit;
   }
   if (position) { drawings.position = journalPosition; }
-})(globalThis.sommerfeld);
+});

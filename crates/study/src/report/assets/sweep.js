@@ -1,6 +1,6 @@
 "use strict";
 // The cases of a sweep over what varies.
-((report) => {
+globalThis.sommerfeld.parts.push((report) => {
   const { theme, axis, layout, drawings, data } = report;
   if (!data.sweep) { return; }
 
@@ -46,4 +46,4 @@
   for (const [kind, figure] of Object.entries(data.sweep.figures)) {
     drawings[kind] = () => sweepCurves(figure);
   }
-})(globalThis.sommerfeld);
+});

@@ -33,6 +33,8 @@ pub(super) fn assemble(
     let mut notes = Vec::new();
     let mut speeds = Vec::new();
     for (at, speed) in work.speeds.into_iter().enumerate() {
+        let is_settled = speed.notes.is_empty();
+        notes.extend(speed.notes);
         let mut bearings = Vec::new();
         let duties = speed.bearings.into_iter().zip(speed.cycles);
         for (index, (planned, (bearing, cycle))) in
@@ -48,7 +50,10 @@ pub(super) fn assemble(
         let swept = speed.performance.as_ref().map(|engine| engine.swept_volume);
         speeds.push(SpeedResults {
             speed: speed.motion.speed,
-            outcome: outcome_of(bearings.iter()),
+            outcome: match outcome_of(bearings.iter()) {
+                Outcome::Converged if !is_settled => Outcome::NotConverged,
+                outcome => outcome,
+            },
             friction_mean_effective_pressure: swept.map(|swept| work_lost / swept),
             performance: speed.performance,
             torsion: speed.torsion,
@@ -60,7 +65,10 @@ pub(super) fn assemble(
         speeds,
     };
     let all = machine.bearings().map(|(_, bearing)| bearing);
-    header.status = outcome_of(all);
+    header.status = match outcome_of(all) {
+        Outcome::Converged if !notes.is_empty() => Outcome::NotConverged,
+        outcome => outcome,
+    };
     let mut messages = messages(&machine, &header.analysis);
     messages.extend(notes);
     messages.append(&mut header.messages);

@@ -5,6 +5,7 @@
 //! ledger until the results are written: a run that ends in any way is taken up by the same command.
 
 mod assemble;
+mod coupled;
 mod desk;
 mod pin;
 mod speeds;

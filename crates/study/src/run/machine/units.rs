@@ -3,6 +3,7 @@
 //! A bearing whose load is known is a unit of its own. Bearings whose loads follow from each other are
 //! one unit: the mains of an elastic crankshaft, the two films of a floating piston pin.
 
+use super::coupled::solve_coupled;
 use super::pin::solve_pin;
 use super::{ProgressCallback, RunError, Work};
 use crate::input::{
@@ -14,7 +15,7 @@ use crate::run::cycle::{bearing_cycle, orbit_settings};
 use crate::run::record::FieldRecorder;
 use serde::{Deserialize, Serialize};
 use sommerfeld_bearing::{JournalOrbit, LoadCycle};
-use sommerfeld_engine::{PinFit, Role};
+use sommerfeld_engine::{Mains, PinFit, Role};
 use sommerfeld_film::{FeedFlow, FilmError};
 
 /// A unit of work.
@@ -33,6 +34,8 @@ pub(super) enum Task {
     Alone([usize; 1]),
     /// Small end and piston boss of a pin that floats between them.
     Pin([usize; 2]),
+    /// All bearings of an elastic shaft, in axial order.
+    Coupled(Vec<usize>),
 }
 
 impl Task {
@@ -41,6 +44,7 @@ impl Task {
         match self {
             Self::Alone(bearing) => bearing,
             Self::Pin(films) => films,
+            Self::Coupled(bearings) => bearings,
         }
     }
 }
@@ -69,18 +73,32 @@ pub(super) type UnitFound = Vec<BearingFound>;
 
 /// Every unit of a machine, speed by speed, those that take longest first.
 pub(super) fn units(plan: &MachinePlan) -> Vec<Unit> {
-    let pins = floating_pins(plan);
-    let in_a_pin = |bearing: &usize| pins.iter().any(|films| films.contains(bearing));
-    let alone = (0..plan.bearings.len()).filter(|bearing| !in_a_pin(bearing));
-    let tasks = pins.iter().map(|films| Task::Pin(*films));
-    let tasks: Vec<Task> = tasks
-        .chain(alone.map(|bearing| Task::Alone([bearing])))
-        .collect();
+    let shaft = on_elastic_shaft(plan).map(Task::Coupled);
+    let pins = floating_pins(plan).into_iter().map(Task::Pin);
+    let mut tasks: Vec<Task> = shaft.into_iter().chain(pins).collect();
+    let is_taken = |bearing: &usize| tasks.iter().any(|task| task.bearings().contains(bearing));
+    let alone = (0..plan.bearings.len()).filter(|bearing| !is_taken(bearing));
+    let alone: Vec<Task> = alone.map(|bearing| Task::Alone([bearing])).collect();
+    tasks.extend(alone);
     let at = |speed: usize| {
         let tasks = tasks.iter().cloned();
         tasks.map(move |task| Unit { speed, task })
     };
     (0..plan.speeds.len()).flat_map(at).collect()
+}
+
+/// The bearings of a shaft whose bending is followed, from its free end.
+fn on_elastic_shaft(plan: &MachinePlan) -> Option<Vec<usize>> {
+    let role = match &plan.machine {
+        Machine::Engine(engine) if engine.mains != Mains::Determinate => Role::Main,
+        Machine::Shaft(shaft) if shaft.is_elastic => Role::Shaft,
+        Machine::Engine(_) | Machine::Shaft(_) => return None,
+    };
+    let all = plan.bearings.iter().enumerate();
+    let on_shaft = all.filter(|(_, bearing)| bearing.role == role);
+    let mut on_shaft: Vec<(usize, usize)> = on_shaft.map(|(at, on)| (on.index, at)).collect();
+    on_shaft.sort_unstable();
+    (!on_shaft.is_empty()).then(|| on_shaft.into_iter().map(|(_, at)| at).collect())
 }
 
 /// Small end and piston boss of each pin that floats in both.
@@ -118,6 +136,7 @@ pub(super) fn solve_unit(
             Ok(vec![found])
         }
         Task::Pin(films) => solve_pin(work, unit.speed, *films, progress),
+        Task::Coupled(bearings) => solve_coupled(work, unit.speed, bearings, progress),
     }
 }
 

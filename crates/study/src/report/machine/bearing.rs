@@ -1,0 +1,180 @@
+//! The page of one bearing: what the report of a load cycle shows, at every speed, and beside the load
+//! the one that hinges at the mains would give.
+
+use super::{AtSpeed, MachinePage, flag, own_header, speed_label};
+use crate::report::chart::{Chart, Mark, Series};
+use crate::report::cycle::{self, CyclePart};
+use crate::report::detail::Detail;
+use crate::report::figures::thinned;
+use crate::report::format::Units;
+use crate::report::page::{Figure, check_with_value, headline, subject};
+use crate::results::machine::{BearingResults, MachineResults};
+use crate::results::{Header, magnitude};
+use serde_json::{Value, json};
+use sommerfeld_engine::Role;
+use sommerfeld_film::Outcome;
+
+/// The page of the bearing `number`, and the data of its figures for each speed.
+pub(super) fn page(
+    header: &Header,
+    machine: &MachineResults,
+    number: usize,
+    id: &str,
+    units: &Units,
+    detail: &Detail,
+) -> (MachinePage, Value) {
+    let found: Vec<&BearingResults> = machine
+        .speeds
+        .iter()
+        .filter_map(|speed| speed.bearings.get(number))
+        .collect();
+    let headers: Vec<Header> = found
+        .iter()
+        .map(|bearing| own_header(header, bearing))
+        .collect();
+    let mut parts: Vec<CyclePart> = found
+        .iter()
+        .zip(&headers)
+        .map(|(bearing, own)| with_determinate(bearing, own, units, detail))
+        .collect();
+    let data: Value = parts.iter_mut().map(|part| part.data.take()).collect();
+    let first = found.first().copied();
+    // All speeds share the places of the figures: those of the speed that fills most of them.
+    let fullest = (0..parts.len()).max_by_key(|&at| {
+        let figures = parts[at].sections.iter().map(|one| one.figures.len());
+        (figures.sum::<usize>(), std::cmp::Reverse(at))
+    });
+    let (film, sections) = fullest.map_or((None, Vec::new()), |at| {
+        let part = &mut parts[at];
+        (part.film.take(), std::mem::take(&mut part.sections))
+    });
+    let at = parts
+        .into_iter()
+        .zip(&headers)
+        .zip(&machine.speeds)
+        .map(|((part, own), speed)| AtSpeed {
+            speed: speed_label(speed),
+            status: headline(own.status),
+            good: own.status == Outcome::Converged,
+            checks: own.limits.iter().map(check_with_value).collect(),
+            cards: part.cards,
+            note: part.hole,
+            tables: part.tables,
+        })
+        .collect();
+    let page = MachinePage {
+        id: id.to_owned(),
+        name: first.map_or_else(String::new, |one| one.name.clone()),
+        heading: first.map_or_else(String::new, |one| one.name.clone()),
+        subject: first.map_or_else(String::new, |one| subject(&one.cycle.bearing)),
+        lead: first.map_or_else(String::new, |one| lead(machine, one)),
+        flag: flag(&headers),
+        film,
+        sections,
+        at,
+    };
+    (page, data)
+}
+
+/// Which body and frame the loads of a bearing belong to.
+fn frame(role: Role) -> &'static str {
+    match role {
+        Role::Main => {
+            "Main bearing of the crankshaft. The shell frame is that of the engine: x up along the \
+             bisector of the banks, y 90° further in the sense of rotation. Loads are loads on the \
+             main journal."
+        }
+        Role::BigEnd => {
+            "Big end of the connecting rod. The shell frame is that of the rod: x from the big end \
+             to the small end, y 90° further in the sense of rotation. Loads are loads on the \
+             crankpin."
+        }
+        Role::SmallEnd => {
+            "Small end of the connecting rod. The shell frame is that of the rod: x from the big \
+             end to the small end, y 90° further in the sense of rotation. Loads are loads on the \
+             piston pin."
+        }
+        Role::PistonBoss => {
+            "Both bosses of the piston together. The shell frame is that of the piston: x along the \
+             cylinder axis towards the head, y 90° further in the sense of rotation. Loads are \
+             loads on the piston pin."
+        }
+        Role::Shaft => {
+            "Bearing of the shaft. The shell frame is that of the housing. Loads are loads on the \
+             journal."
+        }
+    }
+}
+
+fn lead(machine: &MachineResults, bearing: &BearingResults) -> String {
+    let frame = frame(bearing.role);
+    if matches!(bearing.role, Role::Main | Role::Shaft) && !machine.load_model.is_empty() {
+        format!("{frame} Model of the loads: {}.", model_words(machine))
+    } else {
+        frame.to_owned()
+    }
+}
+
+/// The model of the loads without a full stop.
+pub(super) fn model_words(machine: &MachineResults) -> &str {
+    machine.load_model.trim().trim_end_matches('.')
+}
+
+/// A cycle, and beside its load that of the determinate model where there is one.
+fn with_determinate(
+    bearing: &BearingResults,
+    own: &Header,
+    units: &Units,
+    detail: &Detail,
+) -> CyclePart {
+    let cycle = &bearing.cycle;
+    let mut part = cycle::part(own, cycle, units, detail);
+    let points = &cycle.orbit.points;
+    let Some(hinged) = &bearing.determinate_load else {
+        return part;
+    };
+    if points.is_empty() || hinged.len() != points.len() {
+        return part;
+    }
+    let kept = thinned(points.len(), detail.curve_points);
+    let over = |value: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        kept.iter()
+            .map(|&at| value(at) * units.force.factor)
+            .collect()
+    };
+    let series = |name: &str, y| Series {
+        name: name.to_owned(),
+        x: None,
+        y,
+        mark: Mark::Line,
+    };
+    let chart = Chart {
+        x_title: "Crank angle [°]".to_owned(),
+        y_title: format!("Load [{}]", units.force.symbol),
+        y_range: None,
+        series: vec![
+            series("elastic shaft", over(&|at| magnitude(points[at].load))),
+            series("hinges at the mains", over(&|at| magnitude(hinged[at]))),
+        ],
+    };
+    if let Some(charts) = part.data.get_mut("charts") {
+        charts["load-models"] = chart.data(detail);
+    }
+    if let Some(curves) = part.data.get_mut("cycle") {
+        curves["hinged_x"] = detail.numbers(&over(&|at| hinged[at][0]));
+        curves["hinged_y"] = detail.numbers(&over(&|at| hinged[at][1]));
+        curves["hinged"] = json!(true);
+    }
+    if let Some(section) = part.sections.first_mut() {
+        section.figures.push(Figure {
+            kind: "load-models",
+            title: "Load of the elastic and of the hinged shaft",
+            caption: "Magnitude of the load on the journal as this run used it (elastic shaft on \
+                      films and supports), and as a shaft with a hinge at each main would give it \
+                      (statically determinate)."
+                .to_owned(),
+            size: "wide",
+        });
+    }
+    part
+}
