@@ -2,7 +2,8 @@
 
 use crate::exit::Exit;
 use sommerfeld_study::input::{
-    self, BearingCase, Duty, Machine, MachinePlan, MessageKind, Study, Subject, SweepPlan, render_all,
+    self, BearingCase, Duty, Machine, MachinePlan, MessageKind, Study, Subject, SweepPlan,
+    render_all,
 };
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::{self, TEMPLATES};

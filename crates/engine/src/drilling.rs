@@ -127,7 +127,10 @@ impl DrillingInlet {
         let shares = self.grooves.iter().map(|groove| {
             let share = groove.open_share(self.angle + crank_angle, self.half_span);
             let pressure = groove.pressure.at(crank_angle, period);
-            (share, self.land_pressure + share * (pressure - self.land_pressure))
+            (
+                share,
+                self.land_pressure + share * (pressure - self.land_pressure),
+            )
         });
         let widest = shares.max_by(|a, b| a.0.total_cmp(&b.0));
         widest.map_or(self.land_pressure, |(_, pressure)| pressure)
@@ -137,7 +140,9 @@ impl DrillingInlet {
     fn angles(&self, period: f64) -> Vec<f64> {
         let even = (period / STEP).ceil().max(1.0);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // a few hundred
-        let mut angles: Vec<f64> = (0..even as usize).map(|k| k as f64 * period / even).collect();
+        let mut angles: Vec<f64> = (0..even as usize)
+            .map(|k| k as f64 * period / even)
+            .collect();
         for groove in self.grooves.iter().filter(|groove| groove.half_span < PI) {
             let (far, near) = groove.bends(self.half_span);
             for bend in [-far, -near, near, far] {
@@ -308,9 +313,13 @@ mod tests {
         let found = arm_in_rod_frame(&train, 0).unwrap_or(f64::NAN);
         // Engine frame: crankpin and piston pin, the latter on its line at a distance from the crank axis.
         let pin = [0.05 * 2.1_f64.cos(), 0.05 * 2.1_f64.sin()];
-        let (axis, across) = ([0.3_f64.cos(), 0.3_f64.sin()], [-(0.3_f64.sin()), 0.3_f64.cos()]);
+        let (axis, across) = (
+            [0.3_f64.cos(), 0.3_f64.sin()],
+            [-(0.3_f64.sin()), 0.3_f64.cos()],
+        );
         let lateral = pin[0] * across[0] + pin[1] * across[1] - 0.004;
-        let along = pin[0] * axis[0] + pin[1] * axis[1] + (0.15_f64.powi(2) - lateral * lateral).sqrt();
+        let along =
+            pin[0] * axis[0] + pin[1] * axis[1] + (0.15_f64.powi(2) - lateral * lateral).sqrt();
         let piston = [0, 1].map(|k| along * axis[k] + 0.004 * across[k]);
         let rod = (piston[1] - pin[1]).atan2(piston[0] - pin[0]);
         assert!((found - (2.1 - rod)).abs() < 1e-12, "{found}");

@@ -56,9 +56,9 @@ pub use drilling::{
 };
 pub use duty::{BearingDuty, Role};
 pub use gas_exchange::GasExchange;
+pub use harmonics::harmonics;
 pub use heat_ratio::HeatRatio;
 pub use heat_release::{HeatRelease, Wiebe};
-pub use harmonics::harmonics;
 pub use kinematics::{SliderCrank, SliderCrankInstant};
 pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 pub use layout_plan::{LayoutKind, LayoutPlan};

@@ -345,18 +345,39 @@ fn is_finite_machine(plan: &MachinePlan) -> bool {
     let machine = match &plan.machine {
         Machine::Engine(engine) => {
             let train = &engine.train;
-            let pressures = engine.gas.diagrams.iter().flat_map(|(_, d)| &d.points).flatten();
-            let own = [train.bore, train.crank_radius, train.rod_length, train.rod.inertia];
+            let pressures = engine
+                .gas
+                .diagrams
+                .iter()
+                .flat_map(|(_, d)| &d.points)
+                .flatten();
+            let own = [
+                train.bore,
+                train.crank_radius,
+                train.rod_length,
+                train.rod.inertia,
+            ];
             let places = train.layout.mains.iter().chain(&own).chain(pressures);
             train.rod_length > train.crank_radius && places.copied().all(f64::is_finite)
         }
         Machine::Shaft(shaft) => {
             let loads = shaft.loads.iter().flat_map(|load| &load.points).flatten();
             let sections = shaft.sections.iter().map(|s| s.length + s.diameter);
-            shaft.bearings.iter().chain(loads).copied().chain(sections).all(f64::is_finite)
+            shaft
+                .bearings
+                .iter()
+                .chain(loads)
+                .copied()
+                .chain(sections)
+                .all(f64::is_finite)
         }
     };
-    bearings && machine && plan.speeds.iter().all(|speed| *speed > 0.0 && speed.is_finite())
+    bearings
+        && machine
+        && plan
+            .speeds
+            .iter()
+            .all(|speed| *speed > 0.0 && speed.is_finite())
 }
 
 /// Reads an input and holds the answer against the promises; `true` where it is accepted.

@@ -78,7 +78,11 @@ fn pressures(firing_tdc: i32) -> String {
         let angle = f64::from(degree - firing_tdc).to_radians();
         let turn = (angle + TAU).rem_euclid(2.0 * TAU) - TAU;
         let volume = 1.0 + 4.5 * (1.0 - turn.cos());
-        let pressure = if turn.abs() < PI { 40.0 / volume.powf(1.3) } else { 2.0 };
+        let pressure = if turn.abs() < PI {
+            40.0 / volume.powf(1.3)
+        } else {
+            2.0
+        };
         text += &format!("{degree},{pressure:.6}\n");
     }
     text
@@ -88,7 +92,8 @@ fn read(text: &str) -> Study {
     let directory = tempfile::tempdir().unwrap();
     fs::write(directory.path().join("pressure.csv"), pressures(0)).unwrap();
     fs::write(directory.path().join("pressure-360.csv"), pressures(360)).unwrap();
-    study_from_text("study.toml", text, directory.path()).unwrap_or_else(|errors| panic!("{errors}"))
+    study_from_text("study.toml", text, directory.path())
+        .unwrap_or_else(|errors| panic!("{errors}"))
 }
 
 fn plan(study: &Study) -> &MachinePlan {
@@ -119,14 +124,24 @@ fn an_engine_in_si() {
     assert_eq!(
         names,
         [
-            "main-1", "main-2", "main-3", "main-4", "main-5", "big-end-1", "big-end-2", "big-end-3",
+            "main-1",
+            "main-2",
+            "main-3",
+            "main-4",
+            "main-5",
+            "big-end-1",
+            "big-end-2",
+            "big-end-3",
             "big-end-4"
         ]
     );
     let widths = plan.bearings.iter().map(|b| b.bearing.width);
     let mains: Vec<f64> = widths.take(5).collect();
     assert_eq!(mains, [0.019, 0.019, 0.023, 0.019, 0.019]);
-    assert!(plan.bearings[2].bearing.feeds.len() == 1, "what is left out is that of the others");
+    assert!(
+        plan.bearings[2].bearing.feeds.len() == 1,
+        "what is left out is that of the others"
+    );
     assert_eq!(plan.bearings[5].role, Role::BigEnd);
     // Four throws towards their pins, and one square to the arm of throw 2.
     let unbalances = &engine.train.unbalances;
@@ -169,15 +184,20 @@ fn the_firing_tdc_of_the_file_is_that_of_the_engine() {
     let diagram = |study: &Study| engine(study).gas.diagram_at(300.0);
     let (a, b) = (diagram(&study), diagram(&other));
     for angle in [0.0, 0.3, 2.0, 7.0, 12.0] {
-        assert!((a.at(angle) - b.at(angle)).abs() < 1e-3 * a.at(angle), "{angle}");
+        assert!(
+            (a.at(angle) - b.at(angle)).abs() < 1e-3 * a.at(angle),
+            "{angle}"
+        );
     }
     assert!(a.peak()[0].abs() < 0.02 && (a.peak()[1] - 4e6).abs() < 1.0);
 }
 
 #[test]
 fn an_elastic_crankshaft_with_its_supports() {
-    let text = FOUR.replace("numbers = [3]", "numbers = [3]\noffset = [\"10 um\", \"0 um\"]")
-        + r#"
+    let text = FOUR.replace(
+        "numbers = [3]",
+        "numbers = [3]\noffset = [\"10 um\", \"0 um\"]",
+    ) + r#"
 [engine.crankshaft]
 model = "elastic"
 main_length = "26 mm"
@@ -213,7 +233,12 @@ loss_factor = 0.2
 "#;
     let study = read(&(text + "[engine.torsion]\nloss_factor = 0.03\n"));
     let engine = engine(&study);
-    let Mains::Elastic { shape, supports, offsets } = &engine.mains else {
+    let Mains::Elastic {
+        shape,
+        supports,
+        offsets,
+    } = &engine.mains
+    else {
         panic!()
     };
     assert!((shape.main_diameter - (0.052 - 40e-6)).abs() < 1e-15);

@@ -98,7 +98,9 @@ fn range(kind: &Kind) -> Option<String> {
         | Kind::Pair(_, range)
         | Kind::Limit(_, range) => Some(range.to_string()),
         Kind::Integer(low, high) if low == high => Some(low.to_string()),
-        Kind::Integer(low, high) | Kind::Integers(low, high) => Some(format!("at least {low}, at most {high}")),
+        Kind::Integer(low, high) | Kind::Integers(low, high) => {
+            Some(format!("at least {low}, at most {high}"))
+        }
         Kind::Grid => {
             let [[around_low, around_high], [axial_low, axial_high]] = GRID_LIMITS;
             Some(format!(
@@ -177,7 +179,10 @@ mod tests {
             if dimension.is_some() || is_number {
                 has("\n  range     ");
             }
-            if !matches!(key.kind, Kind::Table | Kind::TableList | Kind::TableOrList | Kind::NotBuilt) {
+            if !matches!(
+                key.kind,
+                Kind::Table | Kind::TableList | Kind::TableOrList | Kind::NotBuilt
+            ) {
                 has("\n  typical   ");
                 assert!(!key.typical.is_empty(), "{}", key.path);
             }

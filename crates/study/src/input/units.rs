@@ -119,11 +119,31 @@ const FLOW_RESISTANCE: &[Unit] = &[
     ("Pa.s/m3", 1.0, 0.0),
     ("bar.min/l", 6e9, 0.0),
 ];
-const INERTIA: &[Unit] = &[("kg.m2", 1.0, 0.0), ("kg.cm2", 1e-4, 0.0), ("kg.mm2", 1e-6, 0.0), ("g.m2", 1e-3, 0.0)];
-const MASS_MOMENT: &[Unit] = &[("kg.m", 1.0, 0.0), ("kg.mm", 1e-3, 0.0), ("g.mm", 1e-6, 0.0), ("g.cm", 1e-5, 0.0)];
+const INERTIA: &[Unit] = &[
+    ("kg.m2", 1.0, 0.0),
+    ("kg.cm2", 1e-4, 0.0),
+    ("kg.mm2", 1e-6, 0.0),
+    ("g.m2", 1e-3, 0.0),
+];
+const MASS_MOMENT: &[Unit] = &[
+    ("kg.m", 1.0, 0.0),
+    ("kg.mm", 1e-3, 0.0),
+    ("g.mm", 1e-6, 0.0),
+    ("g.cm", 1e-5, 0.0),
+];
 const ACCELERATION: &[Unit] = &[("m/s2", 1.0, 0.0)];
-const STIFFNESS: &[Unit] = &[("N/m", 1.0, 0.0), ("N/mm", 1e3, 0.0), ("kN/mm", 1e6, 0.0), ("MN/m", 1e6, 0.0), ("N/um", 1e6, 0.0)];
-const TORSIONAL_STIFFNESS: &[Unit] = &[("N.m/rad", 1.0, 0.0), ("kN.m/rad", 1e3, 0.0), ("MN.m/rad", 1e6, 0.0)];
+const STIFFNESS: &[Unit] = &[
+    ("N/m", 1.0, 0.0),
+    ("N/mm", 1e3, 0.0),
+    ("kN/mm", 1e6, 0.0),
+    ("MN/m", 1e6, 0.0),
+    ("N/um", 1e6, 0.0),
+];
+const TORSIONAL_STIFFNESS: &[Unit] = &[
+    ("N.m/rad", 1.0, 0.0),
+    ("kN.m/rad", 1e3, 0.0),
+    ("MN.m/rad", 1e6, 0.0),
+];
 const TORSIONAL_DAMPING: &[Unit] = &[("N.m.s/rad", 1.0, 0.0)];
 const SECTION_STIFFNESS: &[Unit] = &[("N.m2", 1.0, 0.0), ("kN.m2", 1e3, 0.0), ("MN.m2", 1e6, 0.0)];
 const ENERGY: &[Unit] = &[("J", 1.0, 0.0), ("kJ", 1e3, 0.0)];

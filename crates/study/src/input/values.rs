@@ -388,11 +388,7 @@ fn quantities(
         .collect()
 }
 
-fn whole_numbers(
-    list: &[Spanned<DeValue<'_>>],
-    low: i64,
-    high: i64,
-) -> Result<Vec<i64>, Refusal> {
+fn whole_numbers(list: &[Spanned<DeValue<'_>>], low: i64, high: i64) -> Result<Vec<i64>, Refusal> {
     if list.is_empty() || list.len() > LONGEST_LIST {
         return Err(Refusal::new(format!("has {} values", list.len()))
             .allowing(format!("1 to {LONGEST_LIST} values")));

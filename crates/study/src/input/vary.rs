@@ -365,9 +365,7 @@ fn is_section(path: &str, table: &DeTable<'_>) -> bool {
     let kind = names.and_then(|names| schema::find(&names.join(".")).map(|key| key.kind));
     let holds_keys = matches!(
         kind,
-        None | Some(
-            Kind::Table | Kind::TableList | Kind::TableOrList | Kind::QuantityOrLaw(..)
-        )
+        None | Some(Kind::Table | Kind::TableList | Kind::TableOrList | Kind::QuantityOrLaw(..))
     );
     holds_keys && !looks_like_range
 }

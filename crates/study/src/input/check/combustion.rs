@@ -104,7 +104,8 @@ impl Checker<'_> {
             _ => {
                 let message = format!("`{path}` has {} values for {speeds} speeds", list.len());
                 let error = self.error_at(&path, message);
-                self.errors.push(error.allowing("one for all speeds, or one for each"));
+                self.errors
+                    .push(error.allowing("one for all speeds, or one for each"));
                 None
             }
         }
@@ -159,8 +160,9 @@ impl Checker<'_> {
         let parts: Option<Vec<(f64, Wiebe)>> = list
             .iter()
             .map(|(_, entries)| {
-                let number =
-                    |name: &str| value_in(entries, &format!("{BURNING}.{name}")).and_then(as_number);
+                let number = |name: &str| {
+                    value_in(entries, &format!("{BURNING}.{name}")).and_then(as_number)
+                };
                 let wiebe = Wiebe {
                     start: number("start")?,
                     duration: number("duration")?,

@@ -3,6 +3,7 @@
 use super::Checker;
 use super::grooves::mm;
 use super::machine_bearings::CheckedBearing;
+use crate::input::error::InputError;
 use sommerfeld_engine::{CrankshaftShape, EngineLayout, Mains, Role, Web};
 
 const SECTION: &str = "engine.crankshaft";
@@ -27,8 +28,11 @@ impl Checker<'_> {
             return Some(Mains::Determinate);
         }
         self.refuse_elastic_closed_form(MODEL);
-        let others: Vec<CheckedBearing> =
-            bearings.iter().filter(|b| b.role != Role::Main).cloned().collect();
+        let others: Vec<CheckedBearing> = bearings
+            .iter()
+            .filter(|b| b.role != Role::Main)
+            .cloned()
+            .collect();
         let misplaced = self.refuse_offsets(MODEL, &others);
         let shape = self.crankshaft_shape(bearings);
         let supports = self.supports(SECTION, layout.mains.len());
@@ -54,9 +58,15 @@ impl Checker<'_> {
             ),
             _ => format!("{} has no line to be offset from", bearing.name()),
         };
-        let error = self.error_at(model_key, message).of_key("bearing.offset");
-        self.errors
-            .push(error.hinting("take `offset` out, or follow the bending of the shaft: model = \"elastic\""));
+        let hint = match bearing.role {
+            Role::Main | Role::Shaft => format!("take it out, or {model_key} = \"elastic\""),
+            _ => "take it out".to_owned(),
+        };
+        let error = InputError {
+            message,
+            ..bearing.offset_error.clone()
+        };
+        self.errors.push(error.hinting(hint));
         true
     }
 
@@ -69,7 +79,8 @@ impl Checker<'_> {
         for path in unused {
             let message = format!("`{path}` is not used: every main bearing is a hinge");
             let note = self.error_at(path, message);
-            self.warnings.push(note.hinting("model = \"elastic\" uses it"));
+            self.warnings
+                .push(note.hinting("model = \"elastic\" uses it"));
         }
     }
 
@@ -102,7 +113,10 @@ impl Checker<'_> {
         };
         let thinnest = shape.main_diameter.min(shape.pin_diameter);
         if shape.bore_diameter >= thinnest {
-            let error = self.error_at(&path("bore_diameter"), "the bore leaves nothing of the journals");
+            let error = self.error_at(
+                &path("bore_diameter"),
+                "the bore leaves nothing of the journals",
+            );
             self.errors
                 .push(error.allowing(format!("less than {} mm", mm(thinnest))));
             return None;
@@ -125,7 +139,10 @@ impl Checker<'_> {
         let has_width = self.entry(&path("web_width")).is_some();
         let thickness = self.number(&path("web_thickness"));
         if given.contains(&true) && has_width {
-            let error = self.error_at(&path("web_width"), "the stiffness of the webs is given twice");
+            let error = self.error_at(
+                &path("web_width"),
+                "the stiffness of the webs is given twice",
+            );
             self.errors
                 .push(error.allowing("web_width, or the three stiffnesses"));
             return None;
@@ -140,7 +157,12 @@ impl Checker<'_> {
             self.lacking("web_width");
             return None;
         }
-        for name in FITTED.iter().zip(given).filter(|(_, given)| !given).map(|(name, _)| name) {
+        for name in FITTED
+            .iter()
+            .zip(given)
+            .filter(|(_, given)| !given)
+            .map(|(name, _)| name)
+        {
             self.lacking(name);
         }
         let [bending_in_plane, bending_across, torsion] =
@@ -158,7 +180,9 @@ impl Checker<'_> {
         let mut own = bearings.iter().filter(|bearing| bearing.role == role);
         let first = own.next()?;
         // Clearances may differ from bearing to bearing; the bores of one crankshaft do not.
-        if let Some(other) = own.find(|b| (b.bearing.diameter - first.bearing.diameter).abs() > 1e-3 * first.bearing.diameter) {
+        if let Some(other) = own.find(|b| {
+            (b.bearing.diameter - first.bearing.diameter).abs() > 1e-3 * first.bearing.diameter
+        }) {
             let message = format!(
                 "an elastic crankshaft has journals of one diameter: {} has {} mm, {} has {} mm",
                 first.name(),
@@ -167,7 +191,8 @@ impl Checker<'_> {
                 mm(other.bearing.diameter)
             );
             let error = self.error_at(MODEL, message).of_key("bearing.diameter");
-            self.errors.push(error.hinting("use model = \"determinate\""));
+            self.errors
+                .push(error.hinting("use model = \"determinate\""));
             return None;
         }
         Some(first.bearing.diameter - 2.0 * first.bearing.radial_clearance)
@@ -179,7 +204,10 @@ impl Checker<'_> {
             Web::Bar { thickness, .. } | Web::Fitted { thickness, .. } => thickness,
         };
         for pair in layout.mains.windows(2) {
-            let throws = layout.throws.iter().filter(|t| t.axial > pair[0] && t.axial < pair[1]);
+            let throws = layout
+                .throws
+                .iter()
+                .filter(|t| t.axial > pair[0] && t.axial < pair[1]);
             let count = throws.count() as f64;
             if count == 0.0 {
                 continue;
@@ -206,6 +234,12 @@ impl Checker<'_> {
 /// Offsets of bores by number; empty where all are in line.
 pub(super) fn offsets(bearings: &[&CheckedBearing]) -> Vec<[f64; 2]> {
     let has_one = bearings.iter().any(|bearing| bearing.offset.is_some());
-    let offsets = bearings.iter().map(|bearing| bearing.offset.unwrap_or_default());
-    if has_one { offsets.collect() } else { Vec::new() }
+    let offsets = bearings
+        .iter()
+        .map(|bearing| bearing.offset.unwrap_or_default());
+    if has_one {
+        offsets.collect()
+    } else {
+        Vec::new()
+    }
 }

@@ -27,7 +27,10 @@ impl Checker<'_> {
         }
         if let Some(entry) = self.entry("bearing").filter(|e| e.value == Value::Tables) {
             let message = format!("the analysis {} has one bearing", self.mode.name());
-            let error = self.reading.error(&entry.key_span, message).of_key("bearing");
+            let error = self
+                .reading
+                .error(&entry.key_span, message)
+                .of_key("bearing");
             self.errors
                 .push(error.hinting("write [bearing]; engines and shafts have several"));
             return None;

@@ -8,12 +8,13 @@ use super::{as_number, value_in};
 use crate::input::error::InputError;
 use crate::input::machine::{EnginePlan, Machine, MachineBearing};
 use crate::input::values::Value;
+use sommerfeld_bearing::PressureCycle;
 use sommerfeld_engine::{
-    CrankTrain, Cylinder, Drilling, DrillingInlet, EngineLayout, GrooveArc, LayoutError, LayoutKind,
-    LayoutPlan, PinFit, Role, Rod, Strokes, Throw, Unbalance, arm_in_rod_frame, mouth_radius,
+    CrankTrain, Cylinder, Drilling, DrillingInlet, EngineLayout, GrooveArc, LayoutError,
+    LayoutKind, LayoutPlan, PinFit, Rod, Role, Strokes, Throw, Unbalance, arm_in_rod_frame,
+    mouth_radius,
 };
 use sommerfeld_film::{Bearing, Carrier, FeedShape};
-use sommerfeld_bearing::PressureCycle;
 use std::f64::consts::PI;
 
 /// Inertia of usual rods over that of two point masses in their ends.
@@ -169,8 +170,12 @@ impl Checker<'_> {
             return Some(vec![1]);
         }
         let error = self.section_error("engine", "the firing order is missing");
-        self.errors
-            .push(error.of_key(PATH).with_value("").hinting(usual_orders(cylinders)));
+        self.errors.push(
+            error
+                .of_key(PATH)
+                .with_value("")
+                .hinting(usual_orders(cylinders)),
+        );
         None
     }
 
@@ -208,7 +213,11 @@ impl Checker<'_> {
         let (bore, stroke) = (number("bore"), number("stroke"));
         let (rod_length, pin_offset) = (number("rod_length"), number("pin_offset"));
         let (piston_mass, crankcase) = (number("piston_mass"), number("crankcase_pressure"));
-        let rod = match (number("rod_mass"), number("rod_centre_of_gravity"), number("rod_inertia")) {
+        let rod = match (
+            number("rod_mass"),
+            number("rod_centre_of_gravity"),
+            number("rod_inertia"),
+        ) {
             (Some(mass), Some(centre_of_gravity), Some(inertia)) => Some(Rod {
                 mass,
                 centre_of_gravity,
@@ -288,7 +297,10 @@ impl Checker<'_> {
             let later = cylinders.iter().enumerate().skip(at + 1);
             later.map(move |(other, b)| (at, a, other, b))
         });
-        let clash = pairs.filter(|(_, a, _, b)| overlaps(a, b)).map(|p| (p.0, p.2)).next();
+        let clash = pairs
+            .filter(|(_, a, _, b)| overlaps(a, b))
+            .map(|p| (p.0, p.2))
+            .next();
         if let Some((a, b)) = clash {
             let message = format!("cylinders {} and {} run into each other", a + 1, b + 1);
             let error = self.error_at("engine.cylinder_spacing", message);
@@ -314,9 +326,8 @@ impl Checker<'_> {
         let first = layout.throws.get(layout.cylinders.first()?.throw)?.angle;
         let list = self.reading.lists.get(LIST).cloned().unwrap_or_default();
         for (header, entries) in &list {
-            let number = |name: &str| {
-                value_in(entries, &format!("{LIST}.{name}")).and_then(as_number)
-            };
+            let number =
+                |name: &str| value_in(entries, &format!("{LIST}.{name}")).and_then(as_number);
             let throw = match value_in(entries, "engine.unbalance.throw") {
                 Some(Value::Integer(number)) => Some(usize::try_from(number).unwrap_or(0)),
                 _ => None,
@@ -324,7 +335,10 @@ impl Checker<'_> {
             let place = match (throw, number("position")) {
                 (Some(number), None) => match layout.throws.get(number.wrapping_sub(1)) {
                     Some(Throw { angle, axial }) => Ok((*angle, *axial)),
-                    None => Err(("engine.unbalance.throw", format!("there is no throw {number}"))),
+                    None => Err((
+                        "engine.unbalance.throw",
+                        format!("there is no throw {number}"),
+                    )),
                 },
                 (None, Some(axial)) => Ok((first, axial)),
                 (Some(_), Some(_)) => Err((
@@ -390,9 +404,9 @@ impl Checker<'_> {
             let hint = format!("take the [[bearing]] of = \"{}\" out", bearing.role.name());
             self.errors.push(error.hinting(hint));
         }
-        let lacking = match (rod, piston) {
-            (Some(_), None) => Role::PistonBoss,
-            (None, Some(_)) => Role::SmallEnd,
+        let (there, lacking) = match (rod, piston) {
+            (Some(rod), None) => (rod, Role::PistonBoss),
+            (None, Some(piston)) => (piston, Role::SmallEnd),
             _ => return,
         };
         if fit == PinFit::Floating {
@@ -400,7 +414,11 @@ impl Checker<'_> {
                 "the speed of a floating pin follows from the friction of both its bearings: the {} is missing",
                 lacking.name()
             );
-            let error = self.error_at("engine.pin_fit", message).of_key("engine.pin_speed_share");
+            let error = InputError {
+                message,
+                ..there.offset_error.clone()
+            };
+            let error = error.of_key("engine.pin_speed_share").with_value("");
             let hint = format!(
                 "add [[bearing]] with of = \"{}\", or give pin_speed_share",
                 lacking.name()
@@ -513,11 +531,15 @@ impl Crank<'_> {
                 outlet_radius,
                 inlet: None,
             },
-            (None, Some(_)) => self.from_main(bearing, keys)?,
+            (None, Some(_)) => self.main_drilling(bearing, keys)?,
             (None, None) => return Err(Box::new(place("the drilling has no inlet".into()))),
         };
         let period = self.train.period();
-        let own = bearing.bearing.feeds.get(keys.feed).map_or(0.0, |feed| feed.pressure);
+        let own = bearing
+            .bearing
+            .feeds
+            .get(keys.feed)
+            .map_or(0.0, |feed| feed.pressure);
         for speed in self.speeds {
             let lowest = drilling
                 .lowest_supply(self.density, *speed, period)
@@ -536,7 +558,7 @@ impl Crank<'_> {
     }
 
     /// A drilling from a main journal to the hole of a pin.
-    fn from_main(
+    fn main_drilling(
         &self,
         bearing: &CheckedBearing,
         keys: &DrillingKeys,
@@ -551,7 +573,9 @@ impl Crank<'_> {
         };
         if bearing.role != Role::BigEnd {
             let message = "only a hole in the pin of a big end is fed by a main bearing".to_owned();
-            return Err(Box::new(place(message).allowing("pressure or pressure_file")));
+            return Err(Box::new(
+                place(message).allowing("pressure or pressure_file"),
+            ));
         }
         let mains = self.train.layout.mains.len();
         let cylinders = self.train.layout.cylinders.len();
@@ -559,7 +583,10 @@ impl Crank<'_> {
             [only] => only,
             ref each if each.len() == cylinders => each.get(bearing.index).copied().unwrap_or(0),
             ref each => {
-                let error = place(format!("{} main bearings feed {cylinders} pins", each.len()));
+                let error = place(format!(
+                    "{} main bearings feed {cylinders} pins",
+                    each.len()
+                ));
                 let allowed = format!("one number for all cylinders, or {cylinders} numbers");
                 return Err(Box::new(error.allowing(allowed)));
             }
@@ -572,11 +599,15 @@ impl Crank<'_> {
         let checked = self.mains.iter().find(|bearing| bearing.index == main);
         // What is wrong with the main itself is told there.
         let Some(checked) = checked else {
-            return Err(Box::new(place(format!("main bearing {number} is not complete"))));
+            return Err(Box::new(place(format!(
+                "main bearing {number} is not complete"
+            ))));
         };
         let grooves = arcs(&checked.bearing, &checked.feed_pressures);
         if grooves.is_empty() {
-            let error = place(format!("main bearing {number} has no groove that could feed the pin"));
+            let error = place(format!(
+                "main bearing {number} has no groove that could feed the pin"
+            ));
             return Err(Box::new(error.hinting(
                 "give it a [[bearing.groove]] in its shell, or give the hole a pressure of its own",
             )));
@@ -587,13 +618,22 @@ impl Crank<'_> {
                 "the grooves of main bearing {number} do not reach around: where the drilling meets them \
                  depends on its inlet"
             ));
-            return Err(Box::new(error.of_key("bearing.groove.drilling_inlet_angle").hinting(
-                "give drilling_inlet_angle, from the crank arm of the pin",
-            )));
+            return Err(Box::new(
+                error
+                    .of_key("bearing.groove.drilling_inlet_angle")
+                    .hinting("give drilling_inlet_angle, from the crank arm of the pin"),
+            ));
         }
         let cylinders = &self.train.layout.cylinders;
-        let throw = cylinders.get(bearing.index).map_or(0, |cylinder| cylinder.throw);
-        let arm = self.train.layout.throws.get(throw).map_or(0.0, |throw| throw.angle);
+        let throw = cylinders
+            .get(bearing.index)
+            .map_or(0, |cylinder| cylinder.throw);
+        let arm = self
+            .train
+            .layout
+            .throws
+            .get(throw)
+            .map_or(0.0, |throw| throw.angle);
         let hole_diameter = match hole.shape {
             FeedShape::Hole { diameter } => diameter,
             FeedShape::Rectangle { length, .. } => length,

@@ -52,7 +52,12 @@ impl Checker<'_> {
         };
         let peaks = self.peaks(settings.gauge_ambient)?;
         self.warn_beyond(speeds, diagrams.iter().map(|d| d.0), DIAGRAM, "diagrams");
-        self.warn_beyond(speeds, peaks.iter().map(|p| p[0]), "engine.gas.peaks", "peak pressures");
+        self.warn_beyond(
+            speeds,
+            peaks.iter().map(|p| p[0]),
+            "engine.gas.peaks",
+            "peak pressures",
+        );
         Some(Gas { diagrams, peaks })
     }
 
@@ -151,7 +156,8 @@ impl Checker<'_> {
         }
         let rpm = |speed: f64| round(speed * 30.0 / PI);
         // Speeds typed in other units differ by round-off.
-        let is_beyond = |speed: &&f64| **speed < low * (1.0 - 1e-9) || **speed > high * (1.0 + 1e-9);
+        let is_beyond =
+            |speed: &&f64| **speed < low * (1.0 - 1e-9) || **speed > high * (1.0 + 1e-9);
         if let Some(speed) = speeds.iter().find(is_beyond) {
             let message = format!(
                 "the {what} reach from {} to {} rpm: at {} rpm the nearest one is taken",

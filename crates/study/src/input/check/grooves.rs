@@ -170,7 +170,10 @@ impl GrooveCheck<'_, '_> {
         let with_main = [INLET_ANGLE, INLET_DIAMETER];
         let lone = with_main.into_iter().find(|path| self.is_given(path));
         if let Some(path) = lone.filter(|_| !self.is_given(FED_BY)) {
-            let error = self.error(path, "the inlet belongs to a drilling that a main bearing feeds");
+            let error = self.error(
+                path,
+                "the inlet belongs to a drilling that a main bearing feeds",
+            );
             return Err(vec![error.allowing("with fed_by")]);
         }
         let Some(Value::Integers(mains)) = value_in(self.entries, FED_BY) else {
@@ -183,9 +186,8 @@ impl GrooveCheck<'_, '_> {
             });
             return Ok(drilling.filter(|_| self.checker.mode.is_machine()));
         };
-        let refuse = |message: &str, allowed: &str| {
-            Err(vec![self.error(FED_BY, message).allowing(allowed)])
-        };
+        let refuse =
+            |message: &str, allowed: &str| Err(vec![self.error(FED_BY, message).allowing(allowed)]);
         if self.checker.mode != Mode::Engine {
             return refuse(
                 "only the hole in the pin of an engine is fed by a main bearing",
@@ -204,7 +206,10 @@ impl GrooveCheck<'_, '_> {
             feed: 0,
             radii: None,
             fed_by: Some(FedBy {
-                mains: mains.iter().map(|n| usize::try_from(*n).unwrap_or(0)).collect(),
+                mains: mains
+                    .iter()
+                    .map(|n| usize::try_from(*n).unwrap_or(0))
+                    .collect(),
                 inlet_angle: self.number(INLET_ANGLE).ok(),
                 inlet_diameter: self.number(INLET_DIAMETER).ok(),
             }),

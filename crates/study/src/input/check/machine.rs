@@ -104,11 +104,16 @@ impl Checker<'_> {
         let tilt = self.pair(&path("support_tilt_stiffness"));
         let coupling = self.number(&path("support_coupling"))?;
         if self.entry(&path("support_matrix")).is_some() {
-            for name in ["support_stiffness", "support_tilt_stiffness", "support_coupling"] {
+            for name in [
+                "support_stiffness",
+                "support_tilt_stiffness",
+                "support_coupling",
+            ] {
                 if self.entry(&path(name)).is_some() {
                     let message = "the stiffness of the supports is given twice";
                     let error = self.error_at(&path(name), message);
-                    self.errors.push(error.hinting("support_matrix holds all of it"));
+                    self.errors
+                        .push(error.hinting("support_matrix holds all of it"));
                     return None;
                 }
             }
@@ -119,7 +124,8 @@ impl Checker<'_> {
                 if self.entry(&path(name)).is_some() {
                     let message = format!("`{name}` belongs to an elastic support");
                     let error = self.error_at(&path(name), message);
-                    self.errors.push(error.hinting("give support_stiffness, too"));
+                    self.errors
+                        .push(error.hinting("give support_stiffness, too"));
                     return None;
                 }
             }
@@ -131,8 +137,9 @@ impl Checker<'_> {
                 &path("support_coupling"),
                 "a support with this coupling would push itself away",
             );
-            self.errors
-                .push(error.allowing(format!("less than {most} N/m, the root of the two stiffnesses")));
+            self.errors.push(error.allowing(format!(
+                "less than {most} N/m, the root of the two stiffnesses"
+            )));
             return None;
         }
         Some(Supports::Each {
@@ -162,7 +169,10 @@ fn read_matrix(file: &str, text: &str, size: usize) -> Result<Vec<f64>, Box<Inpu
         let wanted = format!("{size} rows of {size} numbers, 4 for each bearing");
         Box::new(InputError::new(file, message).allowing(wanted))
     };
-    let rows = text.lines().enumerate().map(|(at, line)| (at + 1, line.trim()));
+    let rows = text
+        .lines()
+        .enumerate()
+        .map(|(at, line)| (at + 1, line.trim()));
     let rows = rows.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let mut matrix = Vec::new();
     let mut count = 0;
@@ -193,7 +203,9 @@ fn read_matrix(file: &str, text: &str, size: usize) -> Result<Vec<f64>, Box<Inpu
     if count != size {
         let more = if count > size { "more than " } else { "" };
         let rows = count.min(size);
-        return Err(refuse(format!("the stiffness matrix has {more}{rows} rows")));
+        return Err(refuse(format!(
+            "the stiffness matrix has {more}{rows} rows"
+        )));
     }
     for i in 0..size {
         if matrix[i * size + i] <= 0.0 {
@@ -236,13 +248,18 @@ impl Checker<'_> {
                     b.name,
                     mm(needed - room)
                 );
-                let mut error = b.error.clone();
+                let wider = if b.width > a.width { b } else { a };
+                let mut error = wider.error.clone();
                 error.message = message;
                 let allowed = format!(
                     "half widths of the two together up to {} mm, the distance of their centres",
                     mm(room)
                 );
-                if !self.errors.iter().any(|e| e.place == error.place && e.key == error.key) {
+                if !self
+                    .errors
+                    .iter()
+                    .any(|e| e.place == error.place && e.key == error.key)
+                {
                     self.errors.push(error.allowing(allowed));
                 }
             }

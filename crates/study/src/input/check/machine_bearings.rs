@@ -40,6 +40,8 @@ pub(super) struct CheckedBearing {
     pub(super) offset: Option<[f64; 2]>,
     /// An error at its width.
     pub(super) width_error: InputError,
+    /// An error at its offset, or at its header.
+    pub(super) offset_error: InputError,
 }
 
 impl CheckedBearing {
@@ -183,9 +185,8 @@ impl Checker<'_> {
                 None if general.is_some() => {
                     let message = format!("the {} are described twice", plural(kind.role));
                     let error = self.reading.error(&table.header, message).of_key("bearing");
-                    self.errors.push(
-                        error.hinting("give one of the two the numbers that it describes"),
-                    );
+                    self.errors
+                        .push(error.hinting("give one of the two the numbers that it describes"));
                 }
                 None => general = Some(table),
                 Some(entry) => self.assign(kind, table, entry, &mut own),
@@ -197,10 +198,14 @@ impl Checker<'_> {
             .collect();
         if let (false, Some(first)) = (lacking.is_empty(), tables.first()) {
             let which = lacking.join(", ");
-            let message = format!("of the {}, these are not described: {which}", plural(kind.role));
+            let message = format!(
+                "of the {}, these are not described: {which}",
+                plural(kind.role)
+            );
             let error = self.reading.error(&first.header, message).of_key(NUMBERS);
-            self.errors
-                .push(error.hinting("one [[bearing]] of the kind without numbers describes the rest"));
+            self.errors.push(
+                error.hinting("one [[bearing]] of the kind without numbers describes the rest"),
+            );
         }
         self.checked(kind.role, general, &own)
     }
@@ -227,7 +232,8 @@ impl Checker<'_> {
                 None => format!("there is no {} {number}", kind.role.name()),
             };
             let error = self.reading.error(&entry.value_span, error).of_key(NUMBERS);
-            self.errors.push(error.allowing(format!("1 to {}, each once", kind.count)));
+            self.errors
+                .push(error.allowing(format!("1 to {}, each once", kind.count)));
         }
     }
 
@@ -275,6 +281,10 @@ impl Checker<'_> {
             drillings: std::mem::take(&mut self.drillings),
             offset: self.pair("bearing.offset"),
             width_error: self.error_at("bearing.width", ""),
+            offset_error: match self.entry("bearing.offset") {
+                Some(_) => self.error_at("bearing.offset", ""),
+                None => self.reading.error(&table.header, ""),
+            },
         });
         self.leave(outer);
         // What two tables have from a third is wrong once.
@@ -286,7 +296,12 @@ impl Checker<'_> {
     /// Puts a table in the place of `[bearing]`; returns what stood there.
     fn enter(&mut self, table: &BearingTable) -> BearingTable {
         let mut entries = self.reading.entries.clone();
-        entries.extend(table.entries.iter().map(|(key, entry)| (*key, entry.clone())));
+        entries.extend(
+            table
+                .entries
+                .iter()
+                .map(|(key, entry)| (*key, entry.clone())),
+        );
         entries.insert(
             "bearing",
             Entry {
@@ -319,9 +334,12 @@ fn merged(general: &BearingTable, table: &BearingTable) -> BearingTable {
             merged.entries.remove(other);
         }
     }
-    merged
-        .entries
-        .extend(table.entries.iter().map(|(key, entry)| (*key, entry.clone())));
+    merged.entries.extend(
+        table
+            .entries
+            .iter()
+            .map(|(key, entry)| (*key, entry.clone())),
+    );
     if table.entries.contains_key(GROOVE) {
         merged.grooves.clone_from(&table.grooves);
     }

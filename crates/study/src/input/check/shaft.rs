@@ -66,14 +66,12 @@ impl Checker<'_> {
             offsets: offsets(&bearings.iter().collect::<Vec<_>>()),
             sections,
         };
-        let is_loaded = !shaft.unbalances.is_empty()
-            || !shaft.loads.is_empty()
-            || shaft.gravity != [0.0; 2];
+        let is_loaded =
+            !shaft.unbalances.is_empty() || !shaft.loads.is_empty() || shaft.gravity != [0.0; 2];
         if !is_loaded {
             let error = self.section_error("shaft", "nothing loads the shaft");
-            self.errors.push(
-                error.hinting("give [[shaft.load]], [[shaft.unbalance]] or shaft.gravity"),
-            );
+            self.errors
+                .push(error.hinting("give [[shaft.load]], [[shaft.unbalance]] or shaft.gravity"));
         }
         let bearings = bearings.into_iter().map(|bearing| MachineBearing {
             name: bearing.name(),
@@ -105,25 +103,28 @@ impl Checker<'_> {
         if list.is_empty() && self.entry(LIST).is_none() {
             let error = self.section_error("shaft", "the sections of the shaft are missing");
             self.errors.push(
-                error
-                    .of_key(LIST)
-                    .with_value("")
-                    .hinting("add [[shaft.section]] with length and diameter, from the free end on"),
+                error.of_key(LIST).with_value("").hinting(
+                    "add [[shaft.section]] with length and diameter, from the free end on",
+                ),
             );
         }
         let mut sections = Vec::new();
         for (header, entries) in &list {
             let number =
                 |name: &str| value_in(entries, &format!("{LIST}.{name}")).and_then(as_number);
-            let (Some(length), Some(diameter), Some(bore_diameter)) =
-                (number("length"), number("diameter"), number("bore_diameter"))
-            else {
+            let (Some(length), Some(diameter), Some(bore_diameter)) = (
+                number("length"),
+                number("diameter"),
+                number("bore_diameter"),
+            ) else {
                 continue;
             };
             if bore_diameter >= diameter {
                 let path = "shaft.section.bore_diameter";
                 let span = entries.get(path).map_or(header, |entry| &entry.value_span);
-                let error = self.reading.error(span, "the bore leaves nothing of the section");
+                let error = self
+                    .reading
+                    .error(span, "the bore leaves nothing of the section");
                 let allowed = format!("less than its diameter, {} mm", mm(diameter));
                 self.errors.push(error.of_key(path).allowing(allowed));
             }
@@ -216,7 +217,10 @@ impl Checker<'_> {
     }
 
     /// Force over the angle: constant, or from a file.
-    fn load_points(&mut self, (header, entries): &(Range<usize>, Entries)) -> Option<Vec<[f64; 3]>> {
+    fn load_points(
+        &mut self,
+        (header, entries): &(Range<usize>, Entries),
+    ) -> Option<Vec<[f64; 3]>> {
         const FORCE: &str = "shaft.load.force";
         const FILE: &str = "shaft.load.file";
         let period = self.period()?;

@@ -19,11 +19,7 @@ impl Checker<'_> {
         let links = self.links();
         let (discs, links) = (discs?, links?);
         if discs.len() < 2 || links.len() + 1 != discs.len() {
-            let message = format!(
-                "a chain of {} discs has {} links",
-                discs.len(),
-                links.len()
-            );
+            let message = format!("a chain of {} discs has {} links", discs.len(), links.len());
             let error = self.section_error(SECTION, message);
             self.errors.push(
                 error
@@ -78,7 +74,9 @@ impl Checker<'_> {
             .collect();
         if self.errors.len() == errors && !idle.is_empty() {
             let message = format!("throws that drive no disc: {}", idle.join(", "));
-            let error = self.section_error(SECTION, message).of_key("engine.torsion.disc.throw");
+            let error = self
+                .section_error(SECTION, message)
+                .of_key("engine.torsion.disc.throw");
             self.errors
                 .push(error.hinting("give the disc of each throw its number: throw = 1"));
         }
