@@ -3,6 +3,7 @@
 use super::Checker;
 use super::grooves::mm;
 use super::machine_bearings::CheckedBearing;
+use crate::input::error::InputError;
 use sommerfeld_engine::{CrankshaftShape, EngineLayout, Mains, Role, Web};
 
 const SECTION: &str = "engine.crankshaft";
@@ -57,12 +58,15 @@ impl Checker<'_> {
             ),
             _ => format!("{} has no line to be offset from", bearing.name()),
         };
-        let error = self.error_at(model_key, message).of_key("bearing.offset");
-        self.errors.push(
-            error.hinting(
-                "take `offset` out, or follow the bending of the shaft: model = \"elastic\"",
-            ),
-        );
+        let hint = match bearing.role {
+            Role::Main | Role::Shaft => format!("take it out, or {model_key} = \"elastic\""),
+            _ => "take it out".to_owned(),
+        };
+        let error = InputError {
+            message,
+            ..bearing.offset_error.clone()
+        };
+        self.errors.push(error.hinting(hint));
         true
     }
 

@@ -248,7 +248,8 @@ impl Checker<'_> {
                     b.name,
                     mm(needed - room)
                 );
-                let mut error = b.error.clone();
+                let wider = if b.width > a.width { b } else { a };
+                let mut error = wider.error.clone();
                 error.message = message;
                 let allowed = format!(
                     "half widths of the two together up to {} mm, the distance of their centres",

@@ -40,6 +40,8 @@ pub(super) struct CheckedBearing {
     pub(super) offset: Option<[f64; 2]>,
     /// An error at its width.
     pub(super) width_error: InputError,
+    /// An error at its offset, or at its header.
+    pub(super) offset_error: InputError,
 }
 
 impl CheckedBearing {
@@ -279,6 +281,10 @@ impl Checker<'_> {
             drillings: std::mem::take(&mut self.drillings),
             offset: self.pair("bearing.offset"),
             width_error: self.error_at("bearing.width", ""),
+            offset_error: match self.entry("bearing.offset") {
+                Some(_) => self.error_at("bearing.offset", ""),
+                None => self.reading.error(&table.header, ""),
+            },
         });
         self.leave(outer);
         // What two tables have from a third is wrong once.

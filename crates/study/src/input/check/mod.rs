@@ -3,6 +3,7 @@
 mod bearing;
 mod combustion;
 mod crankshaft;
+mod drillings;
 mod duty;
 mod engine;
 mod gas;
