@@ -72,6 +72,16 @@ impl MachineResults {
         })
     }
 
+    /// The bearings as the speed with most of them has them: a speed that failed may have none.
+    pub(crate) fn bearings(&self) -> &[BearingResults] {
+        let most = self
+            .speeds
+            .iter()
+            .rev()
+            .max_by_key(|one| one.bearings.len());
+        most.map_or(&[], |speed| &speed.bearings)
+    }
+
     /// The bearing and speed at which a quantity comes nearest to a limit or breaks it most; the first
     /// of equals. `None` where no bearing has a finite number.
     pub(crate) fn worst(&self, quantity: Quantity) -> Option<Worst> {
