@@ -162,7 +162,7 @@ fn speed_label(speed: &SpeedResults) -> String {
 /// that of the page of the machine.
 fn ids(machine: &MachineResults, taken: &str) -> Vec<String> {
     let mut ids: Vec<String> = vec![taken.to_owned()];
-    for bearing in machine.bearings() {
+    for bearing in machine.fullest() {
         let plain: String = bearing
             .name
             .chars()

@@ -73,7 +73,7 @@ impl MachineResults {
     }
 
     /// The bearings as the speed with most of them has them: a speed that failed may have none.
-    pub(crate) fn bearings(&self) -> &[BearingResults] {
+    pub(crate) fn fullest(&self) -> &[BearingResults] {
         let most = self
             .speeds
             .iter()

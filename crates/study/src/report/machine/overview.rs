@@ -375,7 +375,7 @@ pub(super) fn data(
     ids: &[String],
     is_engine: bool,
 ) -> Value {
-    let bearings = machine.bearings();
+    let bearings = machine.fullest();
     let named: Value = bearings
         .iter()
         .zip(ids)
