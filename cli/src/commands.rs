@@ -2,7 +2,8 @@
 
 use crate::exit::Exit;
 use sommerfeld_study::input::{
-    self, BearingCase, Duty, MachinePlan, MessageKind, Study, Subject, SweepPlan, render_all,
+    self, BearingCase, Duty, Machine, MachinePlan, MessageKind, Study, Subject, SweepPlan,
+    render_all,
 };
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::{self, TEMPLATES};
@@ -66,13 +67,46 @@ fn subject(subject: &Subject) -> String {
     }
 }
 
-/// Its bearings and speeds.
+/// What it is, its bearings by kind, its speeds.
 fn machine(plan: &MachinePlan) -> String {
-    format!(
-        "  bearings  {}\n  speeds    {}\n",
-        plan.bearings.len(),
-        plan.speeds.len()
-    )
+    let mut text = match &plan.machine {
+        Machine::Engine(engine) => {
+            let train = &engine.train;
+            format!(
+                "  engine    {} cylinders, {} throws, bore {:.3} mm, stroke {:.3} mm\n",
+                train.layout.cylinders.len(),
+                train.layout.throws.len(),
+                1e3 * train.bore,
+                2e3 * train.crank_radius
+            )
+        }
+        Machine::Shaft(shaft) => format!(
+            "  shaft     {} sections, {} loads, {} unbalances\n",
+            shaft.sections.len(),
+            shaft.loads.len(),
+            shaft.unbalances.len()
+        ),
+    };
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for bearing in &plan.bearings {
+        let kind = bearing.role.name();
+        match counts.last_mut() {
+            Some((known, count)) if *known == kind => *count += 1,
+            _ => counts.push((kind, 1)),
+        }
+    }
+    let kinds: Vec<String> = counts
+        .iter()
+        .map(|(kind, count)| format!("{count} {kind}"))
+        .collect();
+    let speeds: Vec<String> = plan
+        .speeds
+        .iter()
+        .map(|speed| format!("{:.1}", speed * 30.0 / std::f64::consts::PI))
+        .collect();
+    let (kinds, speeds) = (kinds.join(", "), speeds.join(", "));
+    text += &format!("  bearings  {kinds}\n  speeds    {speeds} rpm\n");
+    text
 }
 
 /// What varies, with how many cases: every one of them was checked.

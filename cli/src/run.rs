@@ -22,7 +22,7 @@ pub struct RunArguments {
     /// Solve on coarser grids and with longer time steps too, and state error bars
     #[arg(long)]
     pub verify: bool,
-    /// Threads for the cases of a sweep; no result depends on it [default: one for each processor]
+    /// Threads for the cases of a sweep or the bearings of a machine; no result depends on it [default: one for each processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
 }
@@ -60,7 +60,7 @@ pub fn run(arguments: &RunArguments) -> Exit {
                 Exit::NotConverged
             }
         }
-        Err(RunError::Film(error)) => {
+        Err(error @ (RunError::Film(_) | RunError::Bearing { .. } | RunError::Machine { .. })) => {
             eprintln!("error: {}: {error}", arguments.file.display());
             Exit::Refused
         }
@@ -80,6 +80,7 @@ pub fn run(arguments: &RunArguments) -> Exit {
 fn is_unfinished(results: &Results, verify: bool) -> bool {
     match &results.body {
         Body::Sweep(sweep) => sweep.count(CaseStatus::NotRun) > 0,
+        Body::Machine(machine) => machine.missing() > 0,
         _ => {
             let header = &results.header;
             header.status != Outcome::Converged || (verify && header.error.is_none())

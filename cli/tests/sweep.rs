@@ -228,7 +228,7 @@ fn a_directory_of_another_sweep_is_refused() {
         let (code, text) = desk.run("out", "1");
         assert_eq!(code, Some(2), "{text}");
         assert!(
-            text.contains("holds the results of another sweep, \"Test\""),
+            text.contains("holds the results of another study, \"Test\""),
             "{text}"
         );
         assert!(text.contains(expected), "{text}");

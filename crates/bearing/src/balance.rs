@@ -10,13 +10,11 @@
 //! Reference: P. Deuflhard, Newton Methods for Nonlinear Problems, Springer 2011, ch. 3.
 
 use crate::dense::solve;
+use crate::motion::{Coordinates, add, length, with_motion};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::{
     Conditions, FilmError, FilmForce, JournalState, Linearised, Outcome, Step, Tangent,
 };
-
-/// Position x, y (m) and tilt x, y (rad), or their rates.
-pub(crate) type Coordinates = [f64; 4];
 
 /// A residual this much above the last one sends the step back. Interleaved film updates may raise
 /// it for an iteration, so that a strict descent would only cost film updates.
@@ -24,38 +22,6 @@ const TOLERATED_GROWTH: f64 = 4.0;
 
 /// Step reductions in a row before the iterate is kept as it is.
 const LARGEST_BACKTRACKS: usize = 6;
-
-/// Position and tilt of a state.
-pub(crate) fn coordinates(state: &JournalState) -> Coordinates {
-    let ([x, y], [tilt_x, tilt_y]) = (state.position, state.tilt);
-    [x, y, tilt_x, tilt_y]
-}
-
-/// `a + factor b`.
-pub(crate) fn add(a: Coordinates, factor: f64, b: Coordinates) -> Coordinates {
-    [0, 1, 2, 3].map(|i| a[i] + factor * b[i])
-}
-
-/// Size of a displacement, m; tilts count by what they move at `arm` (m) from the mid-plane.
-pub(crate) fn length(displacement: Coordinates, arm: f64) -> f64 {
-    let [x, y, tilt_x, tilt_y] = displacement;
-    x.hypot(y).hypot(arm * tilt_x.hypot(tilt_y))
-}
-
-/// The state with other coordinates and rates.
-pub(crate) fn with_motion(
-    frame: &JournalState,
-    position: Coordinates,
-    rate: Coordinates,
-) -> JournalState {
-    JournalState {
-        position: [position[0], position[1]],
-        tilt: [position[2], position[3]],
-        velocity: [rate[0], rate[1]],
-        tilt_rate: [rate[2], rate[3]],
-        ..*frame
-    }
-}
 
 /// How rates follow from the unknown position.
 #[derive(Debug, Clone, Copy)]

@@ -11,7 +11,7 @@ use sommerfeld_film::{FilmError, JournalState};
 
 /// A checked load table with the surface angles at its rows.
 #[derive(Debug, Clone)]
-pub(crate) struct CycleTable<'a> {
+pub struct CycleTable<'a> {
     cycle: &'a LoadCycle,
     /// Angles of journal and shell at each row, and one period after the first, rad.
     turned: Vec<[f64; 2]>,
@@ -23,16 +23,20 @@ pub(crate) struct CycleTable<'a> {
 
 /// Tilt about X and Y (rad) and its rate (rad/s).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct HeldTilt {
+pub struct HeldTilt {
+    /// Rotation vector, rad.
     pub tilt: [f64; 2],
+    /// Its change per time, rad/s.
     pub rate: [f64; 2],
 }
 
 impl<'a> CycleTable<'a> {
+    /// The table of a load cycle, checked.
+    ///
     /// # Errors
     /// [`FilmError::Unsupported`] for a table that is empty, not sorted, longer than its period or
     /// without a positive crank speed and period.
-    pub(crate) fn new(cycle: &'a LoadCycle) -> Result<Self, FilmError> {
+    pub fn new(cycle: &'a LoadCycle) -> Result<Self, FilmError> {
         check(cycle)?;
         let mut table = Self {
             cycle,
@@ -56,12 +60,12 @@ impl<'a> CycleTable<'a> {
     }
 
     /// Crank angle of the first row, rad.
-    pub(crate) fn first_angle(&self) -> f64 {
+    pub fn first_angle(&self) -> f64 {
         self.cycle.points[0].crank_angle
     }
 
     /// All rows are equal, and so are those of the supply.
-    pub(crate) fn is_constant(&self) -> bool {
+    pub fn is_constant(&self) -> bool {
         let first = &self.cycle.points[0];
         let tilt_is_constant = match &self.cycle.tilt {
             CycleTilt::Prescribed(tilts) => tilts.iter().all(|tilt| *tilt == tilts[0]),
@@ -80,22 +84,22 @@ impl<'a> CycleTable<'a> {
     }
 
     /// The tilt is free and answers the moments.
-    pub(crate) fn frees_tilt(&self) -> bool {
+    pub fn frees_tilt(&self) -> bool {
         self.cycle.tilt == CycleTilt::Free
     }
 
     /// The tilt is prescribed.
-    pub(crate) fn holds_tilt(&self) -> bool {
+    pub fn holds_tilt(&self) -> bool {
         matches!(self.cycle.tilt, CycleTilt::Prescribed(_))
     }
 
     /// The journal never tilts.
-    pub(crate) fn is_aligned(&self) -> bool {
+    pub fn is_aligned(&self) -> bool {
         self.cycle.tilt == CycleTilt::Aligned
     }
 
     /// The prescribed tilt and its rate at a crank angle (rad, any turn).
-    pub(crate) fn held_tilt(&self, crank_angle: f64) -> Option<HeldTilt> {
+    pub fn held_tilt(&self, crank_angle: f64) -> Option<HeldTilt> {
         let CycleTilt::Prescribed(tilts) = &self.cycle.tilt else {
             return None;
         };
@@ -138,7 +142,7 @@ impl<'a> CycleTable<'a> {
     }
 
     /// Largest load, N.
-    pub(crate) fn largest_load(&self) -> f64 {
+    pub fn largest_load(&self) -> f64 {
         self.cycle
             .points
             .iter()
@@ -147,7 +151,7 @@ impl<'a> CycleTable<'a> {
     }
 
     /// Load, moment and speeds at a crank angle (rad, any turn).
-    pub(crate) fn at(&self, crank_angle: f64) -> LoadPoint {
+    pub fn at(&self, crank_angle: f64) -> LoadPoint {
         let (_, index, share) = self.locate(crank_angle);
         let (from, to) = self.interval(index);
         let between = |a: f64, b: f64| a + share * (b - a);
@@ -161,7 +165,7 @@ impl<'a> CycleTable<'a> {
     }
 
     /// Speeds and surface angles at a crank angle (rad, any turn); position and rates are zero.
-    pub(crate) fn frame(&self, crank_angle: f64) -> JournalState {
+    pub fn frame(&self, crank_angle: f64) -> JournalState {
         let point = self.at(crank_angle);
         let turned = self.turned_since_first_row(crank_angle);
         JournalState {

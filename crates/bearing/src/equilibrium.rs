@@ -8,9 +8,8 @@
 //! References: F. W. Ocvirk, NACA TN 2808 (1952) (start value); C. T. Kelley, D. E. Keyes, SIAM J.
 //! Numer. Anal. 35 (1998) 508, 10.1137/S0036142996304796 (pseudo-transient continuation).
 
-use crate::balance::{
-    Balance, Balanced, Coordinates, IterationRow, Motion, NewtonLimits, coordinates, with_motion,
-};
+use crate::balance::{Balance, Balanced, IterationRow, Motion, NewtonLimits};
+use crate::motion::{Coordinates, coordinates, with_motion};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::closed_form::short;
 use sommerfeld_film::{

@@ -7,6 +7,7 @@ mod cycle_table;
 mod dense;
 pub mod equilibrium;
 pub mod load_cycle;
+pub mod motion;
 pub mod orbit;
 pub mod stability;
 pub mod stability_chart;
@@ -16,6 +17,7 @@ mod time_step;
 
 pub use balance::IterationRow;
 pub use coefficients::{Coefficients, instant_coefficients};
+pub use cycle_table::{CycleTable, HeldTilt};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 pub use load_cycle::{
     CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle, closing_edge,
@@ -23,3 +25,5 @@ pub use load_cycle::{
 pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
 pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
 pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};
+pub use step_control::Substeps;
+pub use supply_cycle::SupplyCycle;

@@ -10,9 +10,10 @@
 //! References: J. F. Booker, J. Basic Eng. 87 (1965) 537, 10.1115/1.3650602; P. K. Goenka, J.
 //! Tribol. 106 (1984) 421, 10.1115/1.3260949.
 
-use crate::balance::{NewtonLimits, add, coordinates, length, with_motion};
+use crate::balance::NewtonLimits;
 use crate::cycle_table::CycleTable;
 use crate::equilibrium::{EquilibriumRequest, EquilibriumSettings, find_equilibrium};
+use crate::motion::{add, coordinates, length, with_motion};
 use crate::step_control::Substeps;
 use crate::supply_cycle::SupplyCycle;
 use crate::time_step::{Moving, Stepper, Trial};

@@ -7,7 +7,7 @@
 
 /// Place within one output crank step.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Substeps {
+pub struct Substeps {
     level: u32,
     /// Substeps of the present level already done.
     done: u64,
@@ -15,7 +15,9 @@ pub(crate) struct Substeps {
 }
 
 impl Substeps {
-    pub(crate) fn new(finest: u32) -> Self {
+    /// At the start of a run; the output crank step is divided at most `finest` times.
+    #[must_use]
+    pub fn new(finest: u32) -> Self {
         Self {
             level: 0,
             done: 0,
@@ -24,22 +26,22 @@ impl Substeps {
     }
 
     /// Begins the next output crank step at the level reached.
-    pub(crate) fn begin(&mut self) {
+    pub fn begin(&mut self) {
         self.done = 0;
     }
 
     /// The output crank step is done.
-    pub(crate) fn at_end(&self) -> bool {
+    pub fn at_end(&self) -> bool {
         self.done >= self.count()
     }
 
     /// The next substep is the last one.
-    pub(crate) fn is_last(&self) -> bool {
+    pub fn is_last(&self) -> bool {
         self.done + 1 >= self.count()
     }
 
     /// The middle of the next substep is the middle of the output crank step.
-    pub(crate) fn is_central(&self) -> bool {
+    pub fn is_central(&self) -> bool {
         2 * self.done + 1 == self.count()
     }
 
@@ -48,22 +50,22 @@ impl Substeps {
     }
 
     /// Share of the output crank step that is done.
-    pub(crate) fn position(&self) -> f64 {
+    pub fn position(&self) -> f64 {
         self.done as f64 / self.count() as f64
     }
 
     /// Share of the output crank step that the next substep takes.
-    pub(crate) fn length(&self) -> f64 {
+    pub fn length(&self) -> f64 {
         1.0 / self.count() as f64
     }
 
     /// How often the output crank step is divided at present.
-    pub(crate) fn level(&self) -> u32 {
+    pub fn level(&self) -> u32 {
         self.level
     }
 
     /// Divides the next substep into three; false at the finest level.
-    pub(crate) fn divide(&mut self) -> bool {
+    pub fn divide(&mut self) -> bool {
         if self.level >= self.finest {
             return false;
         }
@@ -73,7 +75,7 @@ impl Substeps {
     }
 
     /// One substep is done; the next may be three times as long if `with_room`.
-    pub(crate) fn advance(&mut self, with_room: bool) {
+    pub fn advance(&mut self, with_room: bool) {
         self.done += 1;
         if with_room && self.level > 0 && self.done.is_multiple_of(3) {
             self.level -= 1;
@@ -82,7 +84,7 @@ impl Substeps {
     }
 
     /// Takes the rest of the output crank step in one substep.
-    pub(crate) fn skip_to_end(&mut self) {
+    pub fn skip_to_end(&mut self) {
         self.done = self.count();
     }
 }

@@ -8,7 +8,7 @@ use sommerfeld_film::{Bearing, Conditions, FilmError};
 
 /// The conditions of the film over the crank angle.
 #[derive(Debug, Clone)]
-pub(crate) struct SupplyCycle<'a> {
+pub struct SupplyCycle<'a> {
     constant: Conditions<'a>,
     tables: &'a [PressureCycle],
     period: f64,
@@ -17,10 +17,12 @@ pub(crate) struct SupplyCycle<'a> {
 }
 
 impl<'a> SupplyCycle<'a> {
+    /// The supply of `bearing` over a load cycle; feeds without a table keep what `constant` says.
+    ///
     /// # Errors
     /// [`FilmError::Unsupported`] for a table of a feed that the bearing has not, or one that is
     /// empty, not sorted, not finite or longer than the period.
-    pub(crate) fn new(
+    pub fn new(
         bearing: &Bearing,
         cycle: &'a LoadCycle,
         constant: &Conditions<'a>,
@@ -42,7 +44,7 @@ impl<'a> SupplyCycle<'a> {
     }
 
     /// Conditions at a crank angle (rad, any turn).
-    pub(crate) fn at(&mut self, crank_angle: f64) -> Conditions<'_> {
+    pub fn at(&mut self, crank_angle: f64) -> Conditions<'_> {
         if self.tables.is_empty() {
             return self.constant;
         }

@@ -10,29 +10,16 @@
 //! Estimates are relative to the smallest gap. A prescribed tilt enters every stage with its value and
 //! rate there; in the midpoint rule the rate is the change over the step, so that the film content
 //! agrees with it.
-//! References: R. E. Bank et al., IEEE Trans. CAD 4 (1985) 436, 10.1109/TCAD.1985.1270142; M. E.
-//! Hosea, L. F. Shampine, Appl. Numer. Math. 20 (1996) 21, 10.1016/0168-9274(95)00115-8.
+//! References: those of [`crate::motion`].
 
-use crate::balance::{
-    Balance, Balanced, Coordinates, Motion, NewtonLimits, add, coordinates, length, with_motion,
-};
+use crate::balance::{Balance, Balanced, Motion, NewtonLimits};
 use crate::cycle_table::{CycleTable, HeldTilt};
+use crate::motion::{
+    Coordinates, DIAGONAL, ERROR_WEIGHTS, FIRST_STAGE, WEIGHT, add, coordinates, length,
+    with_motion,
+};
 use crate::supply_cycle::SupplyCycle;
 use sommerfeld_film::{FilmError, FilmForce, JournalState, Linearised, Outcome, Step};
-use std::f64::consts::SQRT_2;
-
-/// Share of the step that the trapezoidal stage of TR-BDF2 takes: 2 - sqrt 2.
-const FIRST_STAGE: f64 = 2.0 - SQRT_2;
-/// Diagonal weight of both implicit stages.
-const DIAGONAL: f64 = 0.5 * FIRST_STAGE;
-/// Weight of the first two rates in the last stage.
-const WEIGHT: f64 = 0.25 * SQRT_2;
-/// Weights of the solution minus those of the embedded third-order one.
-const ERROR_WEIGHTS: [f64; 3] = [
-    WEIGHT - (1.0 - WEIGHT) / 3.0,
-    WEIGHT - (3.0 * WEIGHT + 1.0) / 3.0,
-    DIAGONAL - DIAGONAL / 3.0,
-];
 
 /// The journal in motion.
 #[derive(Debug, Clone, Copy)]

@@ -319,6 +319,23 @@ impl Shape {
         }
     }
 
+    /// The shape turned by an angle (rad) in the sense of rotation.
+    #[must_use]
+    pub fn turned(&self, by: f64) -> Self {
+        let mut turned = self.clone();
+        for feature in &mut turned.features {
+            match feature {
+                Feature::Lemon { joint: angle, .. }
+                | Feature::OffsetHalves { joint: angle, .. }
+                | Feature::JointRelief { joint: angle, .. }
+                | Feature::Harmonic { phase: angle, .. } => *angle += by,
+                Feature::Table(table) => table.turn(by),
+                Feature::Crowning { .. } | Feature::EndRelief { .. } => {}
+            }
+        }
+        turned
+    }
+
     /// It has no features.
     #[must_use]
     pub fn is_cylindrical(&self) -> bool {
@@ -664,5 +681,15 @@ mod tests {
         // Square to the joint the clearance of a lemon is the nominal one.
         let lemon = Shape::of([Feature::Lemon { shift, joint: 0.3 }]);
         assert!(lemon.around(0.3 + FRAC_PI_2).abs() < 1e-20);
+    }
+
+    #[test]
+    fn what_is_turned_has_its_offsets_further_on() {
+        let shape = Shape::of(every_feature());
+        let offset = |angle| shape.offset(angle, 0.004);
+        for angle in [-3.0, 0.1, 1.7, 4.0] {
+            let turned = shape.turned(0.6).offset(angle + 0.6, 0.004);
+            assert!((turned - offset(angle)).abs() < 1e-18, "{angle}");
+        }
     }
 }

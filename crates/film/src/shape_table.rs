@@ -83,6 +83,11 @@ impl ProfileTable {
         Ok(table)
     }
 
+    /// Turns the table by an angle (rad) in the sense of rotation.
+    pub(crate) fn turn(&mut self, by: f64) {
+        self.angles.iter_mut().for_each(|angle| *angle += by);
+    }
+
     /// Slopes at the nodes and integrals between them.
     fn complete(&mut self) {
         let (n, m) = (self.angles.len(), self.positions.len());

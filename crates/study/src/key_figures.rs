@@ -1,9 +1,11 @@
 //! The few figures that answer the question of a study, named and with units, for a terminal.
 
 use crate::cases::CaseStatus;
-use crate::results::machine::MachineResults;
+use crate::limits::Quantity;
+use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{Body, CycleResults, Dynamics, Results, SteadyResults, rpm};
 use sommerfeld_bearing::{CyclePoint, Stability};
+use sommerfeld_engine::Performance;
 use std::collections::BTreeMap;
 
 impl Results {
@@ -45,7 +47,91 @@ impl Results {
 
 impl MachineResults {
     fn key_figures(&self) -> Vec<(&'static str, String)> {
-        vec![("speeds", self.speeds.len().to_string())]
+        let none = ErrorBars(None);
+        let count = self.speeds.first().map_or(0, |speed| speed.bearings.len());
+        let mut figures = vec![("bearings", count.to_string())];
+        if self.speeds.len() > 1 {
+            figures.push(("speeds", self.speeds.len().to_string()));
+        }
+        let extreme = |value: &dyn Fn(&CyclePoint) -> f64| {
+            let of = |bearing: &BearingResults| {
+                let point = bearing.cycle.largest(value)?;
+                Some(value(point))
+            };
+            let (speed, bearing, _) = self.largest(of)?;
+            let point = bearing.cycle.largest(value)?;
+            let at = format!(
+                "at {:.1} deg in {}",
+                point.crank_angle.to_degrees(),
+                speed.place(bearing)
+            );
+            Some((bearing, point, at))
+        };
+        if let Some((_, point, at)) = extreme(&|p| -p.summary.minimum_film_thickness.value) {
+            let film = point.summary.minimum_film_thickness.value;
+            figures.push((
+                "minimum film thickness",
+                format!("{} {at}", micrometres(film, "", none)),
+            ));
+        }
+        if let Some((_, point, at)) = extreme(&|p| p.summary.peak_film_pressure.value) {
+            let peak = point.summary.peak_film_pressure.value;
+            figures.push((
+                "peak film pressure",
+                format!("{} {at}", megapascals(peak, "", none)),
+            ));
+        }
+        let specific =
+            |bearing: &BearingResults| bearing.cycle.limited_value(Quantity::MaximumSpecificLoad);
+        if let Some((speed, bearing, load)) = self.largest(specific) {
+            let text = format!(
+                "{} in {}",
+                megapascals(load, "", none),
+                speed.place(bearing)
+            );
+            figures.push(("maximum specific load", text));
+        }
+        figures.extend(self.speed_figures());
+        figures
+    }
+
+    /// Of one speed its figures, of several their range.
+    fn speed_figures(&self) -> Vec<(&'static str, String)> {
+        let mut figures = Vec::new();
+        let mut add =
+            |name, value: &dyn Fn(&SpeedResults) -> Option<f64>, text: &dyn Fn(f64) -> String| {
+                let values: Vec<f64> = self.speeds.iter().filter_map(value).collect();
+                let Some(least) = values.iter().copied().reduce(f64::min) else {
+                    return;
+                };
+                let most = values.iter().copied().fold(least, f64::max);
+                figures.push((
+                    name,
+                    match least == most {
+                        true => shown(least, text),
+                        false => format!("{} to {}", shown(least, text), shown(most, text)),
+                    },
+                ));
+            };
+        add(
+            "friction mean pressure",
+            &|speed| speed.friction_mean_effective_pressure,
+            &|pressure| format!("{:.4} bar", 1e-5 * pressure),
+        );
+        let engine = |value: fn(&Performance) -> f64| {
+            move |speed: &SpeedResults| speed.performance.as_ref().map(value)
+        };
+        add(
+            "imep",
+            &engine(|found| found.indicated_mean_effective_pressure),
+            &|pressure| format!("{:.3} bar", 1e-5 * pressure),
+        );
+        add(
+            "mean torque",
+            &engine(|found| found.mean_torque),
+            &|torque| format!("{torque:.1} N.m"),
+        );
+        figures
     }
 }
 

@@ -1,10 +1,11 @@
-//! The ledger of a sweep: which cases are done, on disk, so that a run that ends in any way, a
+//! The ledger of a run of many cases: which are done, on disk, so that a run that ends in any way, a
 //! power cut among them, is taken up where it stood.
 //!
-//! One SQLite file in the directory of the results. A case counts as done when its record is
-//! committed, and never before its files are written; what is not committed is run again. Write-ahead
-//! logging keeps the file whole when the program is killed. A lock file, which the system releases
-//! with the program, keeps a second run out.
+//! One SQLite file in the directory of the results. A case of a sweep counts as done when its record
+//! is committed, and never before its files are written; a unit of a machine when its findings are
+//! committed, which stand in the ledger itself until the results are written. What is not committed is
+//! run again. Write-ahead logging keeps the file whole when the program is killed. A lock file, which
+//! the system releases with the program, keeps a second run out.
 
 use crate::cases::{CaseRecord, CaseStatus};
 use crate::results::VERSION;
@@ -19,7 +20,7 @@ use thiserror::Error;
 pub const FILE_NAME: &str = "ledger.sqlite";
 const LOCK_NAME: &str = "ledger.lock";
 /// Version of its tables.
-const LAYOUT: i64 = 1;
+const LAYOUT: i64 = 2;
 /// How long to wait for somebody who reads the ledger meanwhile.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -37,6 +38,7 @@ const TABLES: &str = "
         wall_time_s REAL,
         program_version TEXT
     );
+    CREATE TABLE findings (number INTEGER PRIMARY KEY, content BLOB NOT NULL);
 ";
 
 /// A ledger that cannot be used.
@@ -54,9 +56,9 @@ pub enum LedgerError {
         /// The other process, if it left its number.
         process: Option<String>,
     },
-    /// The directory holds the cases of another study.
+    /// The directory holds the results of another study.
     #[error(
-        "{} holds the results of another sweep, {title}: {}\n  = hint: give this one a directory of its own with --out, or remove that one to begin anew",
+        "{} holds the results of another study, {title}: {}\n  = hint: give this one a directory of its own with --out, or remove that one to begin anew",
         directory.display(),
         differences.join("; ")
     )]
@@ -70,7 +72,7 @@ pub enum LedgerError {
     },
     /// The file is no ledger, or its content is broken.
     #[error(
-        "the ledger {} cannot be trusted: {reason}\n  = hint: move it away to compute all cases anew; the results of finished cases are still in {}",
+        "the ledger {} cannot be trusted: {reason}\n  = hint: move it away to compute everything anew; of a sweep, the results of finished cases are still in {}",
         path.display(),
         path.with_file_name("cases").display()
     )]
@@ -119,9 +121,11 @@ pub enum Entry {
     Started(usize),
     /// The case ended; its files are written.
     Finished(CaseRecord),
+    /// The case of this number ended; this is all that it found.
+    Found(usize, Vec<u8>),
 }
 
-/// The ledger of a sweep, open and locked.
+/// The ledger of a run, open and locked.
 #[derive(Debug)]
 pub struct Ledger {
     path: PathBuf,
@@ -224,6 +228,54 @@ impl Ledger {
         .collect()
     }
 
+    /// The findings of the finished cases by their numbers, in their order.
+    ///
+    /// # Errors
+    /// [`LedgerError::Damaged`], [`LedgerError::Disk`].
+    pub fn findings(&self) -> Result<Vec<(usize, Vec<u8>)>, LedgerError> {
+        let failed = |error: rusqlite::Error| failure(&self.path, &error);
+        let mut statement = self
+            .connection
+            .prepare("SELECT number, content FROM findings ORDER BY number")
+            .map_err(failed)?;
+        let rows = statement
+            .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))
+            .map_err(failed)?;
+        rows.map(|row| row.map_err(failed)).collect()
+    }
+
+    /// The error of a ledger that holds what this program cannot read.
+    #[must_use]
+    pub fn damaged(&self, reason: &str) -> LedgerError {
+        LedgerError::Damaged {
+            path: self.path.clone(),
+            reason: reason.to_owned(),
+        }
+    }
+
+    /// Removes the ledger of a run whose results are all written.
+    ///
+    /// # Errors
+    /// [`LedgerError::Disk`].
+    pub fn remove(self) -> Result<(), LedgerError> {
+        let Self {
+            path, connection, ..
+        } = self;
+        let failed = |reason: String| LedgerError::Disk {
+            path: path.clone(),
+            reason,
+        };
+        // Closed, it folds its log into itself.
+        connection
+            .close()
+            .map_err(|(_, error)| failed(error.to_string()))?;
+        let lock = path.with_file_name(LOCK_NAME);
+        for path in [&path, &lock] {
+            std::fs::remove_file(path).map_err(|error| failed(error.to_string()))?;
+        }
+        Ok(())
+    }
+
     /// Writes entries, all or none; when this returns they are on the disk.
     ///
     /// # Errors
@@ -312,6 +364,8 @@ fn write(connection: &mut Connection, entries: &[Entry]) -> rusqlite::Result<()>
                  program_version = ?6, starts_when_finished = starts
              WHERE number = ?1",
         )?;
+        let mut found = transaction
+            .prepare_cached("INSERT OR REPLACE INTO findings (number, content) VALUES (?1, ?2)")?;
         for entry in entries {
             match entry {
                 Entry::Started(number) => started.execute([number])?,
@@ -323,6 +377,7 @@ fn write(connection: &mut Connection, entries: &[Entry]) -> rusqlite::Result<()>
                     record.wall_time,
                     VERSION,
                 ])?,
+                Entry::Found(number, content) => found.execute(params![number, content])?,
             };
         }
     }
@@ -366,7 +421,7 @@ fn differences(
             .filter(|name| !study.parts.iter().any(|(known, _)| known == *name));
         found.extend(dropped.map(|name| format!("it has {name}, this one has not")));
         if found.is_empty() {
-            found.push("a file that the base study names, such as its loads, has changed".into());
+            found.push("a file that the study names, such as its loads, has changed".into());
         }
     }
     Ok((!found.is_empty()).then_some((title, found)))
@@ -460,6 +515,20 @@ mod tests {
     }
 
     #[test]
+    fn findings_are_there_after_reopening_and_gone_with_the_ledger() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut ledger = Ledger::open(directory.path(), &study()).unwrap();
+        let bytes = vec![0, 255, 7];
+        let entries = [Entry::Found(2, bytes.clone()), Entry::Found(1, Vec::new())];
+        ledger.write(&entries).unwrap();
+        drop(ledger);
+        let ledger = Ledger::open(directory.path(), &study()).unwrap();
+        assert_eq!(ledger.findings().unwrap(), [(1, Vec::new()), (2, bytes)]);
+        ledger.remove().unwrap();
+        assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 0);
+    }
+
+    #[test]
     fn a_second_run_is_kept_out() {
         let directory = tempfile::tempdir().unwrap();
         let first = Ledger::open(directory.path(), &study()).unwrap();
@@ -484,7 +553,7 @@ mod tests {
             assert!(error.is_refusal());
             error.to_string()
         };
-        assert!(told(&other).contains("a file that the base study names"));
+        assert!(told(&other).contains("a file that the study names"));
         other.parts[0].1 = "a = 1\nb = 3\n".into();
         let message = told(&other);
         assert!(

@@ -106,6 +106,9 @@ pub struct LimitCheck {
     pub found: Option<f64>,
     /// How they compare.
     pub verdict: Verdict,
+    /// Of a machine: the bearing and the speed of the result.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<String>,
 }
 
 impl LimitCheck {
@@ -123,6 +126,26 @@ impl LimitCheck {
             limit,
             found,
             verdict,
+            at: None,
+        }
+    }
+
+    /// The same of a run that may not have converged: a limit that seems kept is then not judged.
+    #[must_use]
+    pub fn unless(mut self, not_converged: bool) -> Self {
+        if not_converged && self.verdict == Verdict::Ok {
+            self.verdict = Verdict::NotEvaluated;
+        }
+        self
+    }
+
+    /// Whether this result is further on the wrong side than another against the same limit.
+    #[must_use]
+    pub fn is_worse_than(&self, other: &Self) -> bool {
+        match (self.found, other.found, self.limit.quantity.side()) {
+            (Some(found), Some(other), Side::AtLeast) => found < other,
+            (Some(found), Some(other), Side::AtMost) => found > other,
+            (found, other, _) => found.is_none() && other.is_some(),
         }
     }
 }
@@ -151,7 +174,12 @@ impl std::fmt::Display for LimitCheck {
             "limit: {} {side} {value} {unit} ({}): {verdict}",
             quantity.key().replace('_', " "),
             self.limit.source
-        )
+        )?;
+        match (&self.at, self.found) {
+            (Some(at), Some(found)) => write!(f, ", {:.4} {unit} in {at}", found * factor),
+            (Some(at), None) => write!(f, " in {at}"),
+            (None, _) => Ok(()),
+        }
     }
 }
 

@@ -10,7 +10,7 @@
 //! cylinders. Phil. Trans. R. Soc. A 223, 289-343, doi:10.1098/rsta.1923.0008. San Andres, L.:
 //! Modern Lubrication Theory, Notes 8: Turbulence in thin film flows. Texas A&M University.
 
-use crate::results::{Body, Results};
+use crate::results::{Body, CycleResults, Results};
 use sommerfeld_film::Bearing;
 
 /// Critical `Re / sqrt(R / C_R)` of Taylor vortices: small gaps, inner cylinder turning (Taylor 1923).
@@ -66,6 +66,13 @@ impl FlowRegime {
         })
     }
 
+    /// The regime of a film at its largest Reynolds number over a cycle.
+    #[must_use]
+    pub fn of_cycle(cycle: &CycleResults) -> Option<Self> {
+        let fastest = cycle.largest(|point| point.summary.reynolds_number)?;
+        Self::of(&cycle.bearing, fastest.summary.reynolds_number)
+    }
+
     /// What the reader must know where the film is not laminar.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
@@ -89,10 +96,7 @@ impl Results {
     pub fn flow_regime(&self) -> Option<FlowRegime> {
         match &self.body {
             Body::Steady(steady) => FlowRegime::of(&steady.bearing, steady.summary.reynolds_number),
-            Body::LoadCycle(cycle) => {
-                let fastest = cycle.largest(|point| point.summary.reynolds_number)?;
-                FlowRegime::of(&cycle.bearing, fastest.summary.reynolds_number)
-            }
+            Body::LoadCycle(cycle) => FlowRegime::of_cycle(cycle),
             Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
         }
     }

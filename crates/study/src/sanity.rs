@@ -6,7 +6,7 @@
 //! Design limits are another thing: they are the user's, in [`limits`](crate::limits).
 
 use crate::limits::Quantity;
-use crate::results::Results;
+use crate::results::{Body, Results};
 
 /// Thinnest film that smooth surfaces can stand for, m. The finest finished journals and shells have
 /// a combined roughness of some 0.03 um rms, and from about three times the combined roughness
@@ -20,29 +20,43 @@ pub const SMOOTH_SURFACES: f64 = 0.1e-6;
 pub const RIGID_SHELL: f64 = 1e9;
 
 /// What a reader of the results must know; empty where the physics holds. A result that is not there
-/// is not judged.
+/// is not judged; of a machine the run names the bearings.
 #[must_use]
 pub fn warnings(results: &Results) -> Vec<String> {
+    if let Body::Machine(_) = &results.body {
+        return Vec::new();
+    }
     let thinnest = results.limited_value(Quantity::MinimumFilmThickness);
     let peak = results.limited_value(Quantity::PeakFilmPressure);
-    let mut found = Vec::new();
-    if let Some(film) = thinnest.filter(|film| *film < SMOOTH_SURFACES) {
-        found.push(format!(
+    let thinnest = thinnest.and_then(thin_film);
+    let peak = peak.and_then(high_pressure);
+    thinnest.into_iter().chain(peak).collect()
+}
+
+/// What a minimum film thickness (m) of smooth surfaces is worth, if it is too thin for them.
+#[must_use]
+pub fn thin_film(film: f64) -> Option<String> {
+    (film < SMOOTH_SURFACES).then(|| {
+        format!(
             "the minimum film thickness, {} um, is below {} um: real surfaces touch there, and this \
              film of smooth surfaces does not know contact; read it as overload",
             short(1e6 * film),
             short(1e6 * SMOOTH_SURFACES)
-        ));
-    }
-    if let Some(pressure) = peak.filter(|pressure| *pressure > RIGID_SHELL) {
-        found.push(format!(
+        )
+    })
+}
+
+/// What a peak film pressure (Pa) in a rigid shell is worth, if it is too high for one.
+#[must_use]
+pub fn high_pressure(pressure: f64) -> Option<String> {
+    (pressure > RIGID_SHELL).then(|| {
+        format!(
             "the peak film pressure, {} GPa, is above {} GPa: a rigid shell and a viscosity without \
              pressure mean nothing there; read it as overload",
             short(1e-9 * pressure),
             short(1e-9 * RIGID_SHELL)
-        ));
-    }
-    found
+        )
+    })
 }
 
 /// Three digits, as many as such a number is worth.

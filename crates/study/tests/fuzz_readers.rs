@@ -12,7 +12,7 @@
     missing_docs
 )]
 
-use sommerfeld_study::input::{Duty, KEYS, Study, Subject};
+use sommerfeld_study::input::{Duty, KEYS, Machine, MachinePlan, Study, Subject};
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::TEMPLATES;
 use std::env;
@@ -124,6 +124,11 @@ const PIECES: &[&str] = &[
     "dimensionless = true\n",
     "analysis = \"film\"\n",
     "analysis = \"load-cycle\"\n",
+    "analysis = \"engine\"\n",
+    "analysis = \"shaft\"\n",
+    "[[bearing]]\n",
+    "of = \"main\"\n",
+    "fed_by = 1\n",
     "file = \"loads.csv\"\n",
     "crank_angle[deg]",
     "load_x[kN]",
@@ -303,8 +308,9 @@ fn is_finite(study: &Study) -> bool {
             return case.d_over_b.is_finite() && case.relative_eccentricity.is_finite();
         }
         Subject::Bearing(case) => case,
+        Subject::Machine(plan) => return is_finite_machine(plan),
         // Its cases are studies that are checked one by one.
-        Subject::Machine(_) | Subject::Sweep(_) => return true,
+        Subject::Sweep(_) => return true,
     };
     let bearing = &case.bearing;
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
@@ -324,6 +330,54 @@ fn is_finite(study: &Study) -> bool {
         && viscosity > 0.0
         && viscosity.is_finite()
         && f64::is_finite(loads)
+}
+
+/// Every bearing, mass and pressure of a machine is a number that a run can use.
+fn is_finite_machine(plan: &MachinePlan) -> bool {
+    let bearings = plan.bearings.iter().all(|bearing| {
+        let (supplied, cycles) = plan.supplied(bearing, plan.speeds[0]);
+        let sizes = [supplied.diameter, supplied.width, supplied.radial_clearance];
+        let feeds = supplied.feeds.iter().map(|feed| feed.pressure + feed.angle);
+        let cycles = cycles.iter().flat_map(|cycle| &cycle.points).flatten();
+        sizes.iter().all(|size| *size > 0.0 && size.is_finite())
+            && feeds.chain(cycles.copied()).all(f64::is_finite)
+    });
+    let machine = match &plan.machine {
+        Machine::Engine(engine) => {
+            let train = &engine.train;
+            let pressures = engine
+                .gas
+                .diagrams
+                .iter()
+                .flat_map(|(_, d)| &d.points)
+                .flatten();
+            let own = [
+                train.bore,
+                train.crank_radius,
+                train.rod_length,
+                train.rod.inertia,
+            ];
+            let places = train.layout.mains.iter().chain(&own).chain(pressures);
+            train.rod_length > train.crank_radius && places.copied().all(f64::is_finite)
+        }
+        Machine::Shaft(shaft) => {
+            let loads = shaft.loads.iter().flat_map(|load| &load.points).flatten();
+            let sections = shaft.sections.iter().map(|s| s.length + s.diameter);
+            shaft
+                .bearings
+                .iter()
+                .chain(loads)
+                .copied()
+                .chain(sections)
+                .all(f64::is_finite)
+        }
+    };
+    bearings
+        && machine
+        && plan
+            .speeds
+            .iter()
+            .all(|speed| *speed > 0.0 && speed.is_finite())
 }
 
 /// Reads an input and holds the answer against the promises; `true` where it is accepted.

@@ -98,7 +98,9 @@ fn range(kind: &Kind) -> Option<String> {
         | Kind::Pair(_, range)
         | Kind::Limit(_, range) => Some(range.to_string()),
         Kind::Integer(low, high) if low == high => Some(low.to_string()),
-        Kind::Integer(low, high) => Some(format!("at least {low}, at most {high}")),
+        Kind::Integer(low, high) | Kind::Integers(low, high) => {
+            Some(format!("at least {low}, at most {high}"))
+        }
         Kind::Grid => {
             let [[around_low, around_high], [axial_low, axial_high]] = GRID_LIMITS;
             Some(format!(
@@ -120,6 +122,7 @@ fn kind(kind: &Kind) -> String {
     match *kind {
         Kind::Table => "a table".into(),
         Kind::TableList => "a list of tables".into(),
+        Kind::TableOrList => "a table; in an engine or shaft a list of tables".into(),
         Kind::Text => "text".into(),
         Kind::Flag => "true or false".into(),
         Kind::Integer(..) => "a whole number".into(),
@@ -127,7 +130,8 @@ fn kind(kind: &Kind) -> String {
         Kind::Quantity(dimension, _) => units(dimension),
         Kind::QuantityOrLaw(dimension, _) => format!("{}, or a table", units(dimension)),
         Kind::Pair(dimension, _) => format!("[x, y], each {}", units(dimension)),
-        Kind::List(dimension, _) => format!("a list, each {}", units(dimension)),
+        Kind::List(dimension, _) => format!("one, or a list, each {}", units(dimension)),
+        Kind::Integers(..) => "a whole number, or a list of them".into(),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
         Kind::Choice(built, planned) => {
@@ -175,7 +179,10 @@ mod tests {
             if dimension.is_some() || is_number {
                 has("\n  range     ");
             }
-            if !matches!(key.kind, Kind::Table | Kind::TableList | Kind::NotBuilt) {
+            if !matches!(
+                key.kind,
+                Kind::Table | Kind::TableList | Kind::TableOrList | Kind::NotBuilt
+            ) {
                 has("\n  typical   ");
                 assert!(!key.typical.is_empty(), "{}", key.path);
             }

@@ -40,6 +40,10 @@ fn property(key: &Key) -> Value {
             "type": "array",
             "items": with_required(object_of(key.path), key.path),
         })),
+        Kind::TableOrList => {
+            let one = Value::Object(object_of(key.path));
+            as_map(json!({ "oneOf": [{ "type": "array", "minItems": 1, "items": one }, one] }))
+        }
         Kind::QuantityOrLaw(dimension, _) => as_map(json!({
             "oneOf": [quantity(dimension), with_required(object_of(key.path), key.path)],
         })),
@@ -85,9 +89,14 @@ fn plain(kind: &Kind) -> Value {
         Kind::Pair(dimension, _) => json!({
             "type": "array", "items": quantity(dimension), "minItems": 2, "maxItems": 2,
         }),
-        Kind::List(dimension, _) => json!({
-            "type": "array", "items": quantity(dimension), "minItems": 1,
-        }),
+        Kind::List(dimension, _) => json!({ "anyOf": [
+            quantity(dimension),
+            { "type": "array", "items": quantity(dimension), "minItems": 1 },
+        ]}),
+        Kind::Integers(low, high) => {
+            let one = json!({ "type": "integer", "minimum": low, "maximum": high });
+            json!({ "anyOf": [one, { "type": "array", "minItems": 1, "items": one }] })
+        }
         Kind::Grid => {
             let [around, axial] = GRID_LIMITS
                 .map(|[low, high]| json!({ "type": "integer", "minimum": low, "maximum": high }));
@@ -121,7 +130,12 @@ fn plain(kind: &Kind) -> Value {
                 { "type": "object", "not": { "required": ["from"] } },
             ]},
         }),
-        Kind::Text | Kind::Table | Kind::TableList | Kind::QuantityOrLaw(..) | Kind::NotBuilt => {
+        Kind::Text
+        | Kind::Table
+        | Kind::TableList
+        | Kind::TableOrList
+        | Kind::QuantityOrLaw(..)
+        | Kind::NotBuilt => {
             json!({ "type": "string" })
         }
     }

@@ -1,25 +1,38 @@
 //! The keys of the study file, schema 1.
 
 use super::schema::Kind::{
-    Choice, Flag, Grid, Integer, Limit, List, NotBuilt, Number, Pair, Quantity, QuantityOrLaw,
-    Table, TableList, Text, Vary,
+    Choice, Flag, Grid, Integer, Integers, Limit, List, NotBuilt, Number, Pair, Quantity,
+    QuantityOrLaw, Table, TableList, TableOrList, Text, Vary,
 };
-use super::schema::Mode::{self, Coefficients, Dimensionless, Equilibrium, Film, LoadCycle, Sweep};
+use super::schema::Mode::{
+    self, Coefficients, Dimensionless, Engine, Equilibrium, Film, LoadCycle, Shaft, Sweep,
+};
 use super::schema::Presence::{self, Default, Optional, Required};
 use super::schema::{Key, Kind, Range};
 use super::units::Dimension;
 
-const ALL: &[Mode] = &[Film, Dimensionless, Equilibrium, Coefficients, LoadCycle];
+const ALL: &[Mode] = &[
+    Film,
+    Dimensionless,
+    Equilibrium,
+    Coefficients,
+    LoadCycle,
+    Engine,
+    Shaft,
+];
 const EVERY: &[Mode] = &[
     Film,
     Dimensionless,
     Equilibrium,
     Coefficients,
     LoadCycle,
+    Engine,
+    Shaft,
     Sweep,
 ];
 const SWEEP: &[Mode] = &[Sweep];
-const PHYSICAL: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle];
+const PHYSICAL: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle, Engine, Shaft];
+const REFINED: &[Mode] = &[Film, Dimensionless, Equilibrium, Coefficients, LoadCycle];
 const OPERATED: &[Mode] = &[Film, Equilibrium, Coefficients];
 const STEADY: &[Mode] = &[Equilibrium, Coefficients];
 const TURNING: &[Mode] = &[Coefficients];
@@ -27,6 +40,11 @@ const ONE_FILM: &[Mode] = &[Film];
 const ANY_FILM: &[Mode] = &[Film, Dimensionless];
 const SCALED: &[Mode] = &[Dimensionless];
 const CYCLE: &[Mode] = &[LoadCycle];
+/// Journals that run over a cycle.
+const CYCLIC: &[Mode] = &[LoadCycle, Engine, Shaft];
+const ENGINE: &[Mode] = &[Engine];
+const SHAFT: &[Mode] = &[Shaft];
+const MACHINE: &[Mode] = &[Engine, Shaft];
 
 /// Diameter and width of a bearing: from those of watches to those of mills.
 const SIZE: Range = Range::between(0.1, 10_000.0, "mm");
@@ -45,6 +63,24 @@ pub(super) const MOMENT: Range = Range::between(-1e6, 1e6, "kN.m");
 /// Gauge pressures: down to vacuum, up to what no seal holds.
 const GAUGE: Range = Range::between(-1.013_25, 10_000.0, "bar");
 const SPEED: Range = Range::between(-1e6, 1e6, "rpm");
+/// Dimensions of engines and shafts.
+const LENGTH: Range = Range::above(0.0, 100_000.0, "mm");
+/// Places along or across engines and shafts.
+const PLACE: Range = Range::between(-100_000.0, 100_000.0, "mm");
+const ENGINE_SPEED: Range = Range::above(0.0, 1e6, "rpm");
+const PART_MASS: Range = Range::above(0.0, 1e5, "kg");
+const INERTIA: Range = Range::above(0.0, 1e6, "kg.m2");
+const UNBALANCE: Range = Range::between(0.0, 1e5, "kg.m");
+const MODULUS: Range = Range::between(0.1, 10_000.0, "GPa");
+const SUPPORT: Range = Range::above(0.0, 1e15, "N/m");
+/// Stiffness against twist or tilt.
+const TWIST: Range = Range::above(0.0, 1e15, "N.m/rad");
+const TWIST_DAMPING: Range = Range::between(0.0, 1e9, "N.m.s/rad");
+const SECTION: Range = Range::above(0.0, 1e15, "N.m2");
+/// Absolute pressures of gases.
+const ABSOLUTE: Range = Range::between(0.0, 10_000.0, "bar");
+/// Crank angles of one or two turns either way.
+const TURNS: Range = Range::between(-720.0, 720.0, "deg");
 const KINEMATIC: Range = Range::above(0.0, 1e6, "mm2/s");
 const DENSITY: Range = Range::between(100.0, 20_000.0, "kg/m3");
 
@@ -77,10 +113,16 @@ const fn planned(path: &'static str, meaning: &'static str) -> Key {
 pub const KEYS: &[Key] = &[
     key("schema", Integer(1, 1), Required, EVERY, "Version of the study file format.", "1"),
     key("title", Text, Default(""), EVERY, "Title of the study, shown in the report.", "\"Big end, 2000 rpm\""),
-    key("analysis", Choice(&["film", "equilibrium", "coefficients", "load-cycle", "sweep"], &["database", "engine", "shaft"]),
-        Required, EVERY, "What is calculated: one film, the position under a constant load, stiffness and damping there, the journal orbit over a load cycle, or any of these for many values of some keys.", "\"load-cycle\""),
+    key("analysis", Choice(&["film", "equilibrium", "coefficients", "load-cycle", "engine", "shaft", "sweep"], &["database"]),
+        Required, EVERY, "What is calculated: one film, the position under a constant load, stiffness and damping there, the journal orbit over a load cycle, every bearing of an engine or of a shaft, or one of the first four for many values of some keys.", "\"load-cycle\""),
 
-    key("bearing", Table, Required, PHYSICAL, "The bearing: its size, clearance and oil supply.", ""),
+    key("bearing", TableOrList, Required, PHYSICAL, "The bearing: its size, clearance and oil supply. An engine or shaft has several: write [[bearing]] for each kind, and one with numbers for those that differ from it.", ""),
+    key("bearing.of", Choice(&["main", "big-end", "small-end", "piston-boss", "shaft"], &[]), Optional, MACHINE,
+        "Kind of the bearings of an engine: main and big-end must be there, small-end and piston-boss may. Those of a shaft are all of kind shaft.", "\"main\""),
+    key("bearing.numbers", Integers(1, 1000), Optional, MACHINE,
+        "The bearings of the kind that this one describes, counted from the free end (mains, bearings of a shaft) or by cylinder; what it leaves out is taken from the [[bearing]] of the kind without numbers.", "[4]"),
+    key("bearing.offset", Pair(Dimension::Length, Range::between(-10.0, 10.0, "mm")), Optional, MACHINE,
+        "Position of the bore against the common line of the bores, along X and Y; of main bearings of an elastic crankshaft and bearings of an elastic shaft.", "[\"10 um\", \"0 um\"]"),
     key("bearing.diameter", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bore diameter.", "\"30 mm\" to \"500 mm\""),
     key("bearing.width", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bearing width along the axis.", "0.2 to 1 times the diameter"),
     key("bearing.diametral_clearance", Quantity(Dimension::Length, CLEARANCE), Optional, PHYSICAL,
@@ -91,13 +133,13 @@ pub const KEYS: &[Key] = &[
     key("bearing.groove.kind", Choice(&["circumferential", "axial", "rectangle", "hole"], &[]), Required, PHYSICAL,
         "Outline: circumferential (all around), axial or rectangle (length around, width along the axis), hole (round).", "\"hole\""),
     key("bearing.groove.carried_by", Choice(&["shell", "journal"], &[]), Default("shell"), PHYSICAL, "Surface that carries it; what the journal carries turns with it.", "\"shell\""),
-    key("bearing.groove.angle", Quantity(Dimension::Angle, Range::ANY), Optional, PHYSICAL, "Angle of its centre from +X of its carrier, in the sense of rotation. Not for circumferential grooves.", "\"90 deg\""),
+    key("bearing.groove.angle", Quantity(Dimension::Angle, Range::ANY), Optional, PHYSICAL, "Angle of its centre from +X of its carrier, in the sense of rotation; in the pin of a big end from the outward end of its crank arm. Not for circumferential grooves.", "\"90 deg\""),
     key("bearing.groove.position", Quantity(Dimension::Length, Range::between(-10_000.0, 10_000.0, "mm")), Default("0 mm"), PHYSICAL, "Axial position of its centre from the mid-plane.", "\"0 mm\""),
     key("bearing.groove.diameter", Quantity(Dimension::Length, FEED), Optional, PHYSICAL, "Diameter of a hole.", "\"3 mm\" to \"10 mm\""),
     key("bearing.groove.length", Quantity(Dimension::Length, FEED), Optional, PHYSICAL, "Length around the circumference of an axial or rectangular groove.", "0.1 to 0.25 times the diameter"),
     key("bearing.groove.width", Quantity(Dimension::Length, FEED), Optional, PHYSICAL, "Width along the axis of every groove but a hole.", "\"3 mm\", up to 0.8 times the bearing width"),
     key("bearing.groove.pressure", Quantity(Dimension::Pressure, GAUGE), Optional, PHYSICAL, "Supply pressure (gauge). Give this or pressure_file.", "\"1 bar\" to \"6 bar\""),
-    key("bearing.groove.pressure_file", Text, Optional, CYCLE,
+    key("bearing.groove.pressure_file", Text, Optional, CYCLIC,
         "CSV beside the study with the supply pressure (gauge) over the period: crank_angle[deg],pressure[bar]. Give this or pressure.", "\"feed.csv\""),
     key("bearing.groove.line_resistance", Quantity(Dimension::FlowResistance, Range::between(0.0, 1e6, "bar.s/cm3")), Optional, PHYSICAL,
         "Pressure drop per flow in the line between supply and groove; without it the supply pressure holds in the groove.", "\"0.1 bar.s/cm3\" to \"2 bar.s/cm3\""),
@@ -105,6 +147,12 @@ pub const KEYS: &[Key] = &[
         "Distance from the crank axis at which the drilling in the crank takes its oil; with drilling_outlet_radius: their centrifugal head adds to the supply pressure.", "\"0 mm\", or the radius of the main journal"),
     key("bearing.groove.drilling_outlet_radius", Quantity(Dimension::Length, Range::between(0.0, 10_000.0, "mm")), Optional, PHYSICAL,
         "Distance from the crank axis at which the drilling opens into the film; with drilling_inlet_radius.", "\"90 mm\": crank radius plus pin radius"),
+    key("bearing.groove.fed_by", Integers(1, 1000), Optional, ENGINE,
+        "Of a hole in the pin of a big end, in place of pressure: the main bearing whose grooves feed it through a drilling in the crank, with its centrifugal head at each speed; one for all cylinders, or one for each.", "[1, 2, 3, 4]"),
+    key("bearing.groove.drilling_inlet_angle", Quantity(Dimension::Angle, Range::ANY), Optional, ENGINE,
+        "With fed_by: angle at which the drilling opens into the main journal, from the crank arm of the pin; where the grooves of the main do not reach around, they feed in this part of the turn only.", "\"180 deg\""),
+    key("bearing.groove.drilling_inlet_diameter", Quantity(Dimension::Length, FEED), Optional, ENGINE,
+        "With fed_by: diameter of the drilling where it opens into the main journal. Default: that of the hole.", "\"6 mm\""),
     key("bearing.shell", Table, Optional, PHYSICAL, "The shell as a body.", ""),
     key("bearing.shell.elastic", Choice(&["rigid"], &["layer", "compliance", "modal"]), Default("rigid"), PHYSICAL, "How the shell deforms.", "\"rigid\""),
     key("bearing.bore", Table, Optional, PHYSICAL, "How the bore departs from its cylinder. Everything given adds up; angles are from +X of the shell.", ""),
@@ -183,7 +231,7 @@ pub const KEYS: &[Key] = &[
     key("film.film_shear", Choice(&["full-width", "film-fraction"], &[]), Optional, PHYSICAL,
         "Shear in the ruptured film: as if full, or weighted by the film fraction. Default: film-fraction for mass-conserving, else full-width.", "\"film-fraction\""),
     key("film.linear_solver", Choice(&["auto", "banded"], &["multigrid"]), Default("auto"), ALL, "Solver of the linear systems.", "\"auto\""),
-    key("film.relative_error_target", Number(Range::between(1e-6, 0.1, "")), Optional, ALL,
+    key("film.relative_error_target", Number(Range::between(1e-6, 0.1, "")), Optional, REFINED,
         "Refine the grid, from half of film.grid on, and extrapolate until the estimated discretisation error of every figure is below this: relative to the force or moment vector, the flow, a radian, else to the figure. Load cycles refine their time step too and extrapolate nothing. At most 512 x 128 cells (load cycles 256 x 64 and a quarter of crank_step) or 8 times film.grid in each direction; a figure that misses the target there is named in the messages with its error, and the run still counts as converged.", "1e-3"),
 
     key("operation", Table, Required, &[Film, Dimensionless, Equilibrium, Coefficients], "How the bearing runs.", ""),
@@ -230,8 +278,141 @@ pub const KEYS: &[Key] = &[
     key("output.fields", Choice(&["all", "frames", "none"], &[]), Default("all"), CYCLE,
         "Crank angles of which results.h5 holds the fields: every one, at most 72 evenly spaced ones, or none.", "\"frames\""),
 
-    planned("engine", "An engine, from layout and gas pressure to the loads of its bearings."),
-    planned("shaft", "A shaft on several bearings."),
+    key("engine", Table, Required, ENGINE, "The engine: layout, dimensions, masses, gas, crankshaft. All cylinders are alike; cylinders, throws and main bearings are numbered from the free end.", ""),
+    key("engine.layout", Choice(&["inline", "vee", "boxer"], &[]), Required, ENGINE,
+        "inline: a throw for each cylinder; vee: cylinders 1 to n/2 in the bank that the turning arm passes first, the others in the second, and one of each side by side on a throw; boxer: odd and even cylinders opposed, each with a throw of its own.", "\"inline\""),
+    key("engine.cylinders", Integer(1, 64), Required, ENGINE, "Number of cylinders.", "6"),
+    key("engine.strokes", Integer(2, 4), Default("4"), ENGINE, "Strokes of a working cycle, 2 or 4.", "4"),
+    key("engine.firing_order", Integers(1, 64), Optional, ENGINE, "Numbers of the cylinders in the order in which they fire, beginning with 1. It may be left out for one cylinder.", "[1, 5, 3, 6, 2, 4]"),
+    key("engine.firing_intervals", List(Dimension::Angle, Range::between(0.0, 720.0, "deg")), Optional, ENGINE,
+        "Crank angle from each firing to the next, in the firing order; the last leads back to cylinder 1, so that all add up to one cycle. Default: even.", "[\"90 deg\", \"150 deg\", \"90 deg\", \"150 deg\", \"90 deg\", \"150 deg\"]"),
+    key("engine.throw_angles", List(Dimension::Angle, TURNS), Optional, ENGINE,
+        "Direction of each throw from the free end, in the sense of rotation and against any of them. As many as cylinders in a vee: split pins, a throw for each rod. Default: what layout and firing order ask for.", "[\"0 deg\", \"180 deg\", \"180 deg\", \"0 deg\"]"),
+    key("engine.bank_angle", Quantity(Dimension::Angle, Range::between(0.0, 180.0, "deg")), Optional, ENGINE, "Angle between the banks of a vee.", "\"90 deg\""),
+    key("engine.cylinder_spacing", Quantity(Dimension::Length, LENGTH), Required, ENGINE, "Axial distance of neighbouring cylinders of a bank; of a single cylinder, of its two main bearings.", "\"124 mm\", 1.1 to 1.3 times the bore"),
+    key("engine.main_positions", List(Dimension::Length, PLACE), Optional, ENGINE, "Axial positions of the main bearings, ascending from the free end. Default: one beside every throw.", "[\"0 mm\", \"124 mm\"]"),
+    key("engine.rod_offset", Quantity(Dimension::Length, PLACE), Optional, ENGINE, "Of a vee: axial distance of the two rods on a pin. Of a boxer: of the axes of a pair of cylinders.", "\"20 mm\""),
+    key("engine.bore", Quantity(Dimension::Length, LENGTH), Required, ENGINE, "Cylinder bore.", "\"105 mm\""),
+    key("engine.stroke", Quantity(Dimension::Length, LENGTH), Required, ENGINE, "Stroke: twice the crank radius.", "\"137 mm\""),
+    key("engine.rod_length", Quantity(Dimension::Length, LENGTH), Required, ENGINE, "Length of the connecting rod between the centres of its bearings.", "\"207 mm\""),
+    key("engine.pin_offset", Quantity(Dimension::Length, PLACE), Default("0 mm"), ENGINE, "Distance of the piston pin from the crank axis, 90 deg ahead of the cylinder axis in the sense of rotation.", "\"0 mm\" to \"1 mm\""),
+    key("engine.speed", List(Dimension::AngularSpeed, ENGINE_SPEED), Required, ENGINE, "Speed of the crankshaft, or a list of speeds.", "[\"1000 rpm\", \"2000 rpm\"]"),
+    key("engine.crankcase_pressure", Quantity(Dimension::Pressure, ABSOLUTE), Default("1 bar"), ENGINE, "Absolute pressure under the pistons.", "\"1 bar\""),
+    key("engine.piston_mass", Quantity(Dimension::Mass, PART_MASS), Required, ENGINE, "Mass of a piston with rings and pin.", "\"1.7 kg\""),
+    key("engine.rod_mass", Quantity(Dimension::Mass, PART_MASS), Required, ENGINE, "Mass of a connecting rod with its shells.", "\"2.4 kg\""),
+    key("engine.rod_centre_of_gravity", Quantity(Dimension::Length, LENGTH), Required, ENGINE, "Distance of the centre of gravity of the rod from the centre of its big end.", "\"65 mm\", a third of its length"),
+    key("engine.rod_inertia", Quantity(Dimension::Inertia, INERTIA), Required, ENGINE, "Moment of inertia of the rod about its centre of gravity, axis along the crankshaft.", "\"0.02 kg.m2\""),
+    key("engine.pin_fit", Choice(&["floating", "fixed-in-piston", "fixed-in-rod"], &[]), Default("floating"), ENGINE,
+        "How the piston pin is held; the speed of a floating one follows from the friction of its films.", "\"floating\""),
+    key("engine.pin_speed_share", Number(Range::between(0.0, 1.0, "")), Optional, ENGINE, "Of a floating pin: the share of the speed of the rod with which it turns, in place of the friction balance.", "0.5"),
+    key("engine.throw_unbalance", Quantity(Dimension::MassMoment, UNBALANCE), Optional, ENGINE, "Mass of pin and webs of one throw times its distance from the crank axis, towards the pin.", "\"0.15 kg.m\""),
+    key("engine.counterweight", Quantity(Dimension::MassMoment, UNBALANCE), Optional, ENGINE, "Mass of the counterweights of one throw times its distance from the crank axis, away from the pin.", "\"0.12 kg.m\""),
+    key("engine.unbalance", TableList, Optional, ENGINE, "A further mass out of balance on the crankshaft; write [[engine.unbalance]] for each.", ""),
+    key("engine.unbalance.throw", Integer(1, 64), Optional, ENGINE, "Number of the throw at which it sits. Give this or position.", "1"),
+    key("engine.unbalance.position", Quantity(Dimension::Length, PLACE), Optional, ENGINE, "Axial position. Give this or throw.", "\"-50 mm\""),
+    key("engine.unbalance.moment", Quantity(Dimension::MassMoment, UNBALANCE), Required, ENGINE, "Mass times its distance from the crank axis.", "\"0.02 kg.m\""),
+    key("engine.unbalance.angle", Quantity(Dimension::Angle, Range::ANY), Default("0 deg"), ENGINE, "Its direction in the sense of rotation: from the arm of its throw, or from that of the throw of cylinder 1 where position is given.", "\"180 deg\""),
+
+    key("engine.gas", Table, Optional, ENGINE, "Measured gas pressure. Give this, with file or [[engine.diagram]], or [engine.combustion].", ""),
+    key("engine.gas.file", Text, Optional, ENGINE, "CSV beside the study with the pressure in a cylinder over one working cycle, for every speed: crank_angle[deg],pressure[bar].", "\"pressure.csv\""),
+    key("engine.gas.firing_tdc", Quantity(Dimension::Angle, TURNS), Default("0 deg"), ENGINE, "Crank angle in the file at which the firing top dead centre stands.", "\"360 deg\""),
+    key("engine.gas.shift", Quantity(Dimension::Angle, TURNS), Default("0 deg"), ENGINE, "Correction of the encoder, added to the crank angles of the file before firing_tdc is looked for.", "\"0.3 deg\""),
+    key("engine.gas.gauge", Flag, Default("false"), ENGINE, "The pressures in the files are gauge: ambient is added to them.", "true"),
+    key("engine.gas.ambient", Quantity(Dimension::Pressure, ABSOLUTE), Default("1.01325 bar"), ENGINE, "Absolute pressure of the surroundings, for files with gauge pressures.", "\"1 bar\""),
+    key("engine.gas.smoothing", Quantity(Dimension::Angle, Range::above(0.0, 30.0, "deg")), Optional, ENGINE, "Half of the width over which the pressures are smoothed; the peak is kept. Default: not at all.", "\"2 deg\""),
+    key("engine.gas.peaks", Text, Optional, ENGINE, "CSV beside the study with the peak pressure over the speed, absolute or gauge as the diagrams, to which these are scaled: speed[rpm],peak_pressure[bar].", "\"peaks.csv\""),
+    key("engine.diagram", TableList, Optional, ENGINE, "A measured diagram of one speed; write [[engine.diagram]] for each. Between speeds pressures are interpolated.", ""),
+    key("engine.diagram.speed", Quantity(Dimension::AngularSpeed, ENGINE_SPEED), Required, ENGINE, "Speed at which it was measured.", "\"2000 rpm\""),
+    key("engine.diagram.file", Text, Required, ENGINE, "CSV beside the study, as engine.gas.file; the keys of [engine.gas] hold for it.", "\"pressure-2000.csv\""),
+
+    key("engine.combustion", Table, Optional, ENGINE, "A generated gas pressure, where none was measured: compression, burning, expansion, wall heat. Crank angles count from the firing top dead centre, pressures are absolute.", ""),
+    key("engine.combustion.compression_ratio", Number(Range::above(1.0, 60.0, "")), Required, ENGINE, "Largest volume of a cylinder over its smallest.", "10 gasoline, 17 diesel"),
+    key("engine.combustion.heat", List(Dimension::Energy, Range::between(0.0, 1e9, "J")), Required, ENGINE, "Heat of the fuel burnt in one cylinder and cycle; one for all speeds, or one for each. 0 J: motored.", "\"1.5 kJ\" for 0.5 l of a naturally aspirated engine at full load"),
+    key("engine.combustion.intake_pressure", List(Dimension::Pressure, Range::above(0.0, 100.0, "bar")), Default("[\"1 bar\"]"), ENGINE, "Pressure in the cylinder when the intake closes; one for all speeds, or one for each.", "\"1 bar\", \"2.2 bar\" charged"),
+    key("engine.combustion.intake_temperature", Quantity(Dimension::Temperature, Range::between(-70.0, 1200.0, "degC")), Default("70 degC"), ENGINE, "Temperature of the charge when the intake closes.", "\"70 degC\""),
+    key("engine.combustion.exhaust_pressure", Quantity(Dimension::Pressure, Range::above(0.0, 100.0, "bar")), Default("1.1 bar"), ENGINE, "Pressure in the cylinder while it exhausts.", "\"1.1 bar\""),
+    key("engine.combustion.intake_closes", Quantity(Dimension::Angle, Range::between(-237.0, 0.0, "deg")), Default("-140 deg"), ENGINE, "Crank angle at which the intake closes, negative.", "\"-140 deg\""),
+    key("engine.combustion.exhaust_opens", Quantity(Dimension::Angle, Range::between(0.0, 237.0, "deg")), Default("130 deg"), ENGINE, "Crank angle at which the exhaust opens.", "\"130 deg\""),
+    key("engine.combustion.blow_down", Quantity(Dimension::Angle, Range::above(0.0, 360.0, "deg")), Default("60 deg"), ENGINE, "Crank angle over which the pressure falls after the exhaust has opened.", "\"60 deg\""),
+    key("engine.combustion.overlap", Quantity(Dimension::Angle, Range::between(0.0, 180.0, "deg")), Default("20 deg"), ENGINE, "Crank angle about the gas-exchange dead centre over which the pressure goes from exhaust to intake; of four strokes.", "\"20 deg\""),
+    key("engine.combustion.ratio_of_specific_heats", Number(Range::between(1.05, 2.0, "")), Optional, ENGINE, "Constant ratio of the specific heats of the gas. Default: 1.38 at 300 K, falling by 8e-5 per kelvin to 1.2.", "1.35"),
+    key("engine.combustion.wall_heat", Choice(&["woschni", "adiabatic"], &[]), Default("woschni"), ENGINE, "How the gas loses heat to the walls.", "\"woschni\""),
+    key("engine.combustion.head_temperature", Quantity(Dimension::Temperature, Range::between(-70.0, 1200.0, "degC")), Default("230 degC"), ENGINE, "Temperature of the head in the chamber.", "\"230 degC\""),
+    key("engine.combustion.piston_temperature", Quantity(Dimension::Temperature, Range::between(-70.0, 1200.0, "degC")), Default("250 degC"), ENGINE, "Temperature of the piston crown.", "\"250 degC\""),
+    key("engine.combustion.liner_temperature", Quantity(Dimension::Temperature, Range::between(-70.0, 1200.0, "degC")), Default("150 degC"), ENGINE, "Temperature of the liner.", "\"150 degC\""),
+    key("engine.combustion.head_area_ratio", Number(Range::between(0.5, 5.0, "")), Default("1.2"), ENGINE, "Surface of the head in the chamber over the area of the bore.", "1 flat, 1.3 pent roof"),
+    key("engine.combustion.piston_area_ratio", Number(Range::between(0.5, 5.0, "")), Default("1.1"), ENGINE, "Surface of the piston crown over the area of the bore.", "1 flat, 1.4 bowl"),
+    key("engine.combustion.swirl", Number(Range::between(0.0, 10.0, "")), Default("0"), ENGINE, "Circumferential speed of the charge over the mean piston speed.", "0 to 2"),
+    key("engine.combustion.woschni_constant", Number(Range::between(0.0, 0.1, "")), Default("3.24e-3"), ENGINE, "Constant C2 of the term of combustion, m/(s K): 3.24e-3 for spark ignition and direct injection, 6.22e-3 with a prechamber.", "3.24e-3"),
+    key("engine.combustion.burning", TableList, Optional, ENGINE, "A Wiebe function; write [[engine.combustion.burning]] for each part of the heat, as premixed and diffusion burning.", ""),
+    key("engine.combustion.burning.start", Quantity(Dimension::Angle, TURNS), Required, ENGINE, "Crank angle at which it begins.", "\"-15 deg\""),
+    key("engine.combustion.burning.duration", Quantity(Dimension::Angle, Range::above(0.0, 360.0, "deg")), Required, ENGINE, "Crank angle over which it burns, but for exp(-efficiency).", "\"55 deg\""),
+    key("engine.combustion.burning.share", Number(Range::between(0.0, 1.0, "")), Default("1"), ENGINE, "Its share of the heat; all shares add up to 1.", "0.3"),
+    key("engine.combustion.burning.efficiency", Number(Range::between(1.0, 20.0, "")), Default("6.908"), ENGINE, "Wiebe's a: 6.908 burns 99.9 % over the duration.", "5 to 6.908"),
+    key("engine.combustion.burning.exponent", Number(Range::between(1.0, 20.0, "")), Default("3"), ENGINE, "Wiebe's form and 1.", "2 diesel, 3 gasoline"),
+
+    key("engine.crankshaft", Table, Optional, ENGINE, "How the loads of the main bearings are found.", ""),
+    key("engine.crankshaft.model", Choice(&["determinate", "elastic"], &[]), Default("determinate"), ENGINE,
+        "determinate: a hinge at each main, neighbours share the loads of their throw as a beam on two supports; elastic: an elastic crankshaft on elastic supports, through clearance and film.", "\"elastic\""),
+    key("engine.crankshaft.youngs_modulus", Quantity(Dimension::Pressure, MODULUS), Default("210 GPa"), ENGINE, "Young's modulus of the crankshaft.", "\"210 GPa\" steel, \"170 GPa\" nodular iron"),
+    key("engine.crankshaft.poissons_ratio", Number(Range::between(0.0, 0.49, "")), Default("0.3"), ENGINE, "Poisson's ratio of the crankshaft.", "0.3"),
+    key("engine.crankshaft.main_length", Quantity(Dimension::Length, LENGTH), Optional, ENGINE, "Length of a main journal between the webs.", "\"38 mm\""),
+    key("engine.crankshaft.pin_length", Quantity(Dimension::Length, LENGTH), Optional, ENGINE, "Length of a crankpin between the webs.", "\"38 mm\""),
+    key("engine.crankshaft.bore_diameter", Quantity(Dimension::Length, Range::between(0.0, 100_000.0, "mm")), Default("0 mm"), ENGINE, "Bores along journals and pins.", "\"0 mm\""),
+    key("engine.crankshaft.web_thickness", Quantity(Dimension::Length, LENGTH), Optional, ENGINE, "Thickness of a web along the crankshaft.", "\"24 mm\""),
+    key("engine.crankshaft.web_width", Quantity(Dimension::Length, LENGTH), Optional, ENGINE, "Width of a web across its arm. Give this or the three stiffnesses.", "\"120 mm\""),
+    key("engine.crankshaft.web_bending_in_plane", Quantity(Dimension::SectionStiffness, SECTION), Optional, ENGINE, "Bending stiffness EI of the bar that stands for a web, in the plane of the throw, from a finite-element model or a test.", "\"30 kN.m2\""),
+    key("engine.crankshaft.web_bending_across", Quantity(Dimension::SectionStiffness, SECTION), Optional, ENGINE, "Bending stiffness EI of that bar across the plane of the throw.", "\"700 kN.m2\""),
+    key("engine.crankshaft.web_torsion", Quantity(Dimension::SectionStiffness, SECTION), Optional, ENGINE, "Torsional stiffness GJ of that bar.", "\"40 kN.m2\""),
+    key("engine.crankshaft.support_stiffness", Pair(Dimension::Stiffness, SUPPORT), Optional, ENGINE, "Stiffness of what holds each main shell, along X and Y. Default: rigid.", "[\"500 N/um\", \"300 N/um\"]"),
+    key("engine.crankshaft.support_coupling", Quantity(Dimension::Stiffness, Range::between(-1e15, 1e15, "N/m")), Default("0 N/m"), ENGINE, "Force along X per displacement along Y of that support, and the other way round.", "\"0 N/m\""),
+    key("engine.crankshaft.support_tilt_stiffness", Pair(Dimension::TorsionalStiffness, TWIST), Optional, ENGINE, "Stiffness against tilt of each main shell about X and Y; left out, shells do not tilt.", "[\"500 kN.m/rad\", \"500 kN.m/rad\"]"),
+    key("engine.crankshaft.support_matrix", Text, Optional, ENGINE,
+        "CSV beside the study with the condensed stiffness matrix of the block over all mains, without a header, in N/m, N and N.m/rad: rows and columns x, y, tilt about x, tilt about y of main 1, then of main 2. In place of support_stiffness.", "\"block.csv\""),
+
+    key("engine.torsion", Table, Optional, ENGINE, "Torsional vibration of the crankshaft: a chain of discs, whose twist enters the motion of every throw. Without it the crankshaft turns evenly.", ""),
+    key("engine.torsion.loss_factor", Number(Range::between(0.0, 10.0, "")), Default("0"), ENGINE, "Loss factor of every link that gives none: imaginary over real part of its stiffness.", "0.035"),
+    key("engine.torsion.disc", TableList, Optional, ENGINE, "A disc of the chain, from the free end to the flywheel; two or more.", ""),
+    key("engine.torsion.disc.inertia", Quantity(Dimension::Inertia, INERTIA), Required, ENGINE, "Moment of inertia, with the mean share of the moving parts.", "\"0.0327 kg.m2\""),
+    key("engine.torsion.disc.damping", Quantity(Dimension::TorsionalDamping, TWIST_DAMPING), Default("0 N.m.s/rad"), ENGINE, "Damping against the ground.", "\"2 N.m.s/rad\""),
+    key("engine.torsion.disc.throw", Integer(1, 64), Optional, ENGINE, "Number of the throw that drives it; every throw drives one disc.", "1"),
+    key("engine.torsion.link", TableList, Optional, ENGINE, "A link between a disc and the next, one fewer than discs.", ""),
+    key("engine.torsion.link.stiffness", Quantity(Dimension::TorsionalStiffness, TWIST), Required, ENGINE, "Torsional stiffness.", "\"1.25 MN.m/rad\""),
+    key("engine.torsion.link.damping", Quantity(Dimension::TorsionalDamping, TWIST_DAMPING), Default("0 N.m.s/rad"), ENGINE, "Viscous damping between the two discs, as of a damper.", "\"20 N.m.s/rad\""),
+    key("engine.torsion.link.loss_factor", Number(Range::between(0.0, 10.0, "")), Optional, ENGINE, "Loss factor of this link.", "0.2"),
+
+    key("shaft", Table, Required, SHAFT, "A straight shaft on several bearings: camshaft, balancer shaft. z = 0 at its free end.", ""),
+    key("shaft.speed", List(Dimension::AngularSpeed, ENGINE_SPEED), Required, SHAFT, "Speed of the shaft, or a list of speeds.", "[\"4000 rpm\"]"),
+    key("shaft.period", Quantity(Dimension::Angle, Range::above(0.0, 36_000.0, "deg")), Default("360 deg"), SHAFT, "Angle of the shaft after which its loads repeat.", "\"360 deg\""),
+    key("shaft.bearing_positions", List(Dimension::Length, Range::between(0.0, 100_000.0, "mm")), Required, SHAFT, "Positions of the bearings along the shaft, ascending.", "[\"20 mm\", \"180 mm\"]"),
+    key("shaft.model", Choice(&["determinate", "elastic"], &[]), Default("elastic"), SHAFT, "elastic: the bending of the shaft, through clearance and film; determinate: a hinge at each bearing.", "\"elastic\""),
+    key("shaft.youngs_modulus", Quantity(Dimension::Pressure, MODULUS), Default("210 GPa"), SHAFT, "Young's modulus.", "\"210 GPa\""),
+    key("shaft.poissons_ratio", Number(Range::between(0.0, 0.49, "")), Default("0.3"), SHAFT, "Poisson's ratio.", "0.3"),
+    key("shaft.density", Quantity(Dimension::Density, DENSITY), Default("7850 kg/m3"), SHAFT, "Density, for its weight.", "\"7850 kg/m3\""),
+    key("shaft.gravity", Pair(Dimension::Acceleration, Range::between(-1e4, 1e4, "m/s2")), Optional, SHAFT, "Acceleration of gravity along X and Y. Default: none.", "[\"-9.81 m/s2\", \"0 m/s2\"]"),
+    key("shaft.support_stiffness", Pair(Dimension::Stiffness, SUPPORT), Optional, SHAFT, "Stiffness of what holds each shell, along X and Y. Default: rigid.", "[\"500 N/um\", \"300 N/um\"]"),
+    key("shaft.support_coupling", Quantity(Dimension::Stiffness, Range::between(-1e15, 1e15, "N/m")), Default("0 N/m"), SHAFT, "Force along X per displacement along Y of that support, and the other way round.", "\"0 N/m\""),
+    key("shaft.support_tilt_stiffness", Pair(Dimension::TorsionalStiffness, TWIST), Optional, SHAFT, "Stiffness against tilt of each shell about X and Y; left out, shells do not tilt.", "[\"500 kN.m/rad\", \"500 kN.m/rad\"]"),
+    key("shaft.support_matrix", Text, Optional, SHAFT, "CSV beside the study with the condensed stiffness matrix of the housing over all bearings, as engine.crankshaft.support_matrix.", "\"housing.csv\""),
+    key("shaft.section", TableList, Optional, SHAFT, "A section of the shaft, from its free end; write [[shaft.section]] for each.", ""),
+    key("shaft.section.length", Quantity(Dimension::Length, LENGTH), Required, SHAFT, "Length.", "\"40 mm\""),
+    key("shaft.section.diameter", Quantity(Dimension::Length, LENGTH), Required, SHAFT, "Outer diameter.", "\"30 mm\""),
+    key("shaft.section.bore_diameter", Quantity(Dimension::Length, Range::between(0.0, 100_000.0, "mm")), Default("0 mm"), SHAFT, "Diameter of the bore along it.", "\"0 mm\""),
+    key("shaft.unbalance", TableList, Optional, SHAFT, "A mass out of balance; write [[shaft.unbalance]] for each.", ""),
+    key("shaft.unbalance.position", Quantity(Dimension::Length, Range::between(0.0, 100_000.0, "mm")), Required, SHAFT, "Position along the shaft.", "\"100 mm\""),
+    key("shaft.unbalance.moment", Quantity(Dimension::MassMoment, UNBALANCE), Required, SHAFT, "Mass times its distance from the axis.", "\"5 kg.mm\""),
+    key("shaft.unbalance.angle", Quantity(Dimension::Angle, Range::ANY), Default("0 deg"), SHAFT, "Its direction at shaft angle 0, from +X in the sense of rotation.", "\"0 deg\""),
+    key("shaft.load", TableList, Optional, SHAFT, "A load on the shaft; write [[shaft.load]] for each.", ""),
+    key("shaft.load.position", Quantity(Dimension::Length, Range::between(0.0, 100_000.0, "mm")), Required, SHAFT, "Position along the shaft.", "\"60 mm\""),
+    key("shaft.load.force", Pair(Dimension::Force, FORCE), Optional, SHAFT, "Constant force ON the shaft, along X and Y. Give this or file.", "[\"-200 N\", \"0 N\"]"),
+    key("shaft.load.file", Text, Optional, SHAFT, "CSV beside the study with the force ON the shaft over its angle: crank_angle[deg],load_x[N],load_y[N]. Give this or force.", "\"cam-1.csv\""),
+
+    key("orbit", Table, Optional, MACHINE, "How the journal orbits of an engine or shaft are computed.", ""),
+    key("orbit.crank_step", Quantity(Dimension::Angle, Range::between(0.001, 30.0, "deg")), Default("1 deg"), MACHINE, "Angle between two rows of the results; divides the period.", "\"1 deg\""),
+    key("orbit.maximum_cycles", Integer(1, 1000), Default("8"), MACHINE, "Cycles after which an orbit that has not closed is given up.", "8"),
+    key("orbit.closure_tolerance", Number(Range::above(0.0, 0.1, "")), Default("1e-4"), MACHINE,
+        "An orbit is closed when two cycles differ by less, over the radial clearance.", "1e-4"),
+
     planned("database", "A hydrodynamic database."),
 
     key("sweep", Table, Required, SWEEP, "Many cases of a base study, some of whose keys vary.", ""),

@@ -1,6 +1,9 @@
 //! A checked machine: an engine or a shaft with its bearings and speeds, in SI.
 
-use sommerfeld_engine::{CrankTrain, Gas, GeneralShaft, Mains, PinFit, Role, TorsionalChain};
+use sommerfeld_bearing::PressureCycle;
+use sommerfeld_engine::{
+    CrankTrain, Drilling, Gas, GeneralShaft, HoleSupply, Mains, PinFit, Role, TorsionalChain,
+};
 use sommerfeld_film::Bearing;
 use sommerfeld_oil::Lubricant;
 
@@ -55,8 +58,60 @@ pub struct MachineBearing {
     pub role: Role,
     /// Its number among its kind, 0-based.
     pub index: usize,
-    /// The bearing.
+    /// The bearing; the heads of drillings are not yet in the pressures of its feeds.
     pub bearing: Bearing,
+    /// Supply pressures that change over the period.
+    pub feed_pressures: Vec<PressureCycle>,
+    /// Drillings in the crank that feed its holes.
+    pub drillings: Vec<Drilling>,
+}
+
+impl MachinePlan {
+    /// Angle of the shaft after which everything repeats, rad.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        match &self.machine {
+            Machine::Engine(engine) => engine.train.period(),
+            Machine::Shaft(shaft) => shaft.period,
+        }
+    }
+
+    /// A bearing as it is supplied at a speed of the shaft (rad/s): with the heads of its drillings, and
+    /// the supply pressures that change over the period.
+    #[must_use]
+    pub fn supplied(&self, bearing: &MachineBearing, speed: f64) -> (Bearing, Vec<PressureCycle>) {
+        let density = self.lubricant.density(self.temperature, 0.0).value;
+        bearing.supplied(density, speed, self.period())
+    }
+}
+
+impl MachineBearing {
+    /// The bearing with its supply at a density (kg/m3) and speed (rad/s), over a period (rad).
+    fn supplied(&self, density: f64, speed: f64, period: f64) -> (Bearing, Vec<PressureCycle>) {
+        let mut bearing = self.bearing.clone();
+        let mut cycles = self.feed_pressures.clone();
+        for drilling in &self.drillings {
+            let Some(feed) = bearing.feeds.get_mut(drilling.feed) else {
+                continue;
+            };
+            match drilling.supply(density, speed, period) {
+                Some(HoleSupply::Constant(pressure)) => feed.pressure = pressure,
+                Some(HoleSupply::Cycle(cycle)) => {
+                    feed.pressure = cycle.mean(period);
+                    cycles.push(cycle);
+                }
+                None => {
+                    let head = drilling.head(density, speed);
+                    feed.pressure += head;
+                    let own = cycles.iter_mut().find(|cycle| cycle.feed == drilling.feed);
+                    for point in own.into_iter().flat_map(|cycle| &mut cycle.points) {
+                        point[1] += head;
+                    }
+                }
+            }
+        }
+        (bearing, cycles)
+    }
 }
 
 /// How the orbits of a machine are computed.

@@ -5,6 +5,7 @@
 
 mod check;
 mod csv_table;
+pub mod diagram_file;
 mod error;
 mod explain;
 mod files;

@@ -31,6 +31,19 @@ pub(super) struct Entry {
 /// Values by full key.
 pub(super) type Entries = BTreeMap<&'static str, Entry>;
 
+/// Groups of entries by the key of their list, each with the place of its header.
+pub(super) type Lists = BTreeMap<&'static str, Vec<(Span<usize>, Entries)>>;
+
+/// One `[[bearing]]` of a machine: read like the one `[bearing]` of another study.
+#[derive(Debug, Clone)]
+pub(super) struct BearingTable {
+    /// Bytes of its header.
+    pub(super) header: Span<usize>,
+    pub(super) entries: Entries,
+    pub(super) grooves: Vec<(Span<usize>, Entries)>,
+    pub(super) lists: Lists,
+}
+
 /// A study file as read: values, places, and what was wrong.
 pub(super) struct Reading<'t> {
     pub(super) file: &'t str,
@@ -39,7 +52,9 @@ pub(super) struct Reading<'t> {
     /// One set of entries per `[[bearing.groove]]`, with the place of its header.
     pub(super) grooves: Vec<(Span<usize>, Entries)>,
     /// The same for every other list of tables, by its key.
-    pub(super) lists: BTreeMap<&'static str, Vec<(Span<usize>, Entries)>>,
+    pub(super) lists: Lists,
+    /// Every `[[bearing]]` of a machine.
+    pub(super) bearings: Vec<BearingTable>,
     pub(super) errors: Vec<InputError>,
 }
 
@@ -51,7 +66,8 @@ impl<'t> Reading<'t> {
             text,
             entries: Entries::new(),
             grooves: Vec::new(),
-            lists: BTreeMap::new(),
+            lists: Lists::new(),
+            bearings: Vec::new(),
             errors: Vec::new(),
         };
         let (document, syntax) = DeTable::parse_recoverable(text);
@@ -206,12 +222,13 @@ impl<'t> Reading<'t> {
                     .push(not_built(self.error(&name.span(), ""), key.path).of_key(key.path));
                 None
             }
-            (Kind::Table | Kind::QuantityOrLaw(..), DeValue::Table(table)) => {
+            (Kind::Table | Kind::TableOrList | Kind::QuantityOrLaw(..), DeValue::Table(table)) => {
                 self.table(key.path, table, entries);
                 Some(Value::Table)
             }
             (Kind::Vary, DeValue::Table(table)) => self.vary(table, &span),
             (Kind::TableList, DeValue::Array(list)) => self.groups(key, list),
+            (Kind::TableOrList, DeValue::Array(list)) => self.bearings(key, list),
             (Kind::TableList, DeValue::Table(table)) => {
                 let mut group = Entries::new();
                 self.table(key.path, table, &mut group);
@@ -262,6 +279,36 @@ impl<'t> Reading<'t> {
             self.keep_group(key, element.span(), group);
         }
         Some(Value::Table)
+    }
+
+    /// Reads every `[[bearing]]`, each with lists of its own.
+    fn bearings(&mut self, key: &'static Key, list: &[Spanned<DeValue<'_>>]) -> Option<Value> {
+        for element in list {
+            let DeValue::Table(table) = element.get_ref() else {
+                let message = format!("`{}` is a list of tables", key.path);
+                let error = self.error(&element.span(), message).of_key(key.path);
+                self.errors
+                    .push(error.hinting(format!("write [[{}]] for each", key.path)));
+                return None;
+            };
+            let outer = (
+                std::mem::take(&mut self.grooves),
+                std::mem::take(&mut self.lists),
+            );
+            let mut entries = Entries::new();
+            self.table(key.path, table, &mut entries);
+            let (grooves, lists) = (
+                std::mem::replace(&mut self.grooves, outer.0),
+                std::mem::replace(&mut self.lists, outer.1),
+            );
+            self.bearings.push(BearingTable {
+                header: element.span(),
+                entries,
+                grooves,
+                lists,
+            });
+        }
+        Some(Value::Tables)
     }
 
     /// Reads `{ value = "..", source = ".." }`.

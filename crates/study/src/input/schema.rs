@@ -66,6 +66,8 @@ pub enum Kind {
     Table,
     /// `[[section]]`, one or more.
     TableList,
+    /// `[section]`, or `[[section]]` where the study has several.
+    TableOrList,
     /// Free text.
     Text,
     /// `true` or `false`.
@@ -82,6 +84,8 @@ pub enum Kind {
     Pair(Dimension, Range),
     /// One quantity or more.
     List(Dimension, Range),
+    /// One whole number or more, each between two bounds.
+    Integers(i64, i64),
     /// Cells around and along the axis.
     Grid,
     /// One of these words; the second list is planned, and refused by name.
@@ -118,6 +122,10 @@ pub enum Mode {
     Coefficients,
     /// Journal orbit.
     LoadCycle,
+    /// Every bearing of an engine.
+    Engine,
+    /// Every bearing of a shaft with given loads.
+    Shaft,
     /// Many cases of a base study.
     Sweep,
 }
@@ -132,8 +140,22 @@ impl Mode {
             Self::Equilibrium => "equilibrium",
             Self::Coefficients => "coefficients",
             Self::LoadCycle => "load-cycle",
+            Self::Engine => "engine",
+            Self::Shaft => "shaft",
             Self::Sweep => "sweep",
         }
+    }
+
+    /// The study is one of several bearings.
+    #[must_use]
+    pub const fn is_machine(self) -> bool {
+        matches!(self, Self::Engine | Self::Shaft)
+    }
+
+    /// The journals run over a cycle.
+    #[must_use]
+    pub const fn is_cyclic(self) -> bool {
+        matches!(self, Self::LoadCycle | Self::Engine | Self::Shaft)
     }
 }
 

@@ -42,6 +42,22 @@ pub enum Dimension {
     VolumeFlow,
     /// Pa s/m3: pressure drop per volume flow
     FlowResistance,
+    /// kg m2
+    Inertia,
+    /// kg m: mass times its distance from an axis
+    MassMoment,
+    /// m/s2
+    Acceleration,
+    /// N/m
+    Stiffness,
+    /// N m/rad: moment per angle of twist or tilt
+    TorsionalStiffness,
+    /// N m s/rad
+    TorsionalDamping,
+    /// N m2: stiffness EI or GJ of a section
+    SectionStiffness,
+    /// J
+    Energy,
 }
 
 /// One unit: name, factor to SI and the SI value of its zero.
@@ -103,6 +119,34 @@ const FLOW_RESISTANCE: &[Unit] = &[
     ("Pa.s/m3", 1.0, 0.0),
     ("bar.min/l", 6e9, 0.0),
 ];
+const INERTIA: &[Unit] = &[
+    ("kg.m2", 1.0, 0.0),
+    ("kg.cm2", 1e-4, 0.0),
+    ("kg.mm2", 1e-6, 0.0),
+    ("g.m2", 1e-3, 0.0),
+];
+const MASS_MOMENT: &[Unit] = &[
+    ("kg.m", 1.0, 0.0),
+    ("kg.mm", 1e-3, 0.0),
+    ("g.mm", 1e-6, 0.0),
+    ("g.cm", 1e-5, 0.0),
+];
+const ACCELERATION: &[Unit] = &[("m/s2", 1.0, 0.0)];
+const STIFFNESS: &[Unit] = &[
+    ("N/m", 1.0, 0.0),
+    ("N/mm", 1e3, 0.0),
+    ("kN/mm", 1e6, 0.0),
+    ("MN/m", 1e6, 0.0),
+    ("N/um", 1e6, 0.0),
+];
+const TORSIONAL_STIFFNESS: &[Unit] = &[
+    ("N.m/rad", 1.0, 0.0),
+    ("kN.m/rad", 1e3, 0.0),
+    ("MN.m/rad", 1e6, 0.0),
+];
+const TORSIONAL_DAMPING: &[Unit] = &[("N.m.s/rad", 1.0, 0.0)];
+const SECTION_STIFFNESS: &[Unit] = &[("N.m2", 1.0, 0.0), ("kN.m2", 1e3, 0.0), ("MN.m2", 1e6, 0.0)];
+const ENERGY: &[Unit] = &[("J", 1.0, 0.0), ("kJ", 1e3, 0.0)];
 
 /// All dimensions, to look up what a foreign unit measures.
 const DIMENSIONS: &[Dimension] = &[
@@ -121,6 +165,14 @@ const DIMENSIONS: &[Dimension] = &[
     Dimension::Power,
     Dimension::VolumeFlow,
     Dimension::FlowResistance,
+    Dimension::Inertia,
+    Dimension::MassMoment,
+    Dimension::Acceleration,
+    Dimension::Stiffness,
+    Dimension::TorsionalStiffness,
+    Dimension::TorsionalDamping,
+    Dimension::SectionStiffness,
+    Dimension::Energy,
 ];
 
 impl Dimension {
@@ -144,6 +196,14 @@ impl Dimension {
             Self::Power => "power",
             Self::VolumeFlow => "volume flow",
             Self::FlowResistance => "flow resistance",
+            Self::Inertia => "inertia",
+            Self::MassMoment => "mass moment",
+            Self::Acceleration => "acceleration",
+            Self::Stiffness => "stiffness",
+            Self::TorsionalStiffness => "torsional stiffness",
+            Self::TorsionalDamping => "torsional damping",
+            Self::SectionStiffness => "section stiffness",
+            Self::Energy => "energy",
         }
     }
 
@@ -165,6 +225,14 @@ impl Dimension {
             Self::Power => POWER,
             Self::VolumeFlow => VOLUME_FLOW,
             Self::FlowResistance => FLOW_RESISTANCE,
+            Self::Inertia => INERTIA,
+            Self::MassMoment => MASS_MOMENT,
+            Self::Acceleration => ACCELERATION,
+            Self::Stiffness => STIFFNESS,
+            Self::TorsionalStiffness => TORSIONAL_STIFFNESS,
+            Self::TorsionalDamping => TORSIONAL_DAMPING,
+            Self::SectionStiffness => SECTION_STIFFNESS,
+            Self::Energy => ENERGY,
         }
     }
 

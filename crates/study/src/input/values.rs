@@ -31,8 +31,12 @@ pub(super) enum Value {
     Limit(f64, String),
     /// The keys that a sweep varies.
     Vary(Vec<Vary>),
+    /// Whole numbers, one or more.
+    Integers(Vec<i64>),
     /// A table; its keys are entries of their own.
     Table,
+    /// Tables; each has its own entries.
+    Tables,
     /// Given, but refused with an error of its own: not to be reported as missing, too.
     Unreadable,
 }
@@ -149,6 +153,15 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
         (Kind::List(dimension, range), DeValue::Array(list)) => {
             quantities(list, dimension, range).map(Value::List)
         }
+        (Kind::List(dimension, range), DeValue::String(text)) => {
+            quantity(text, dimension, range).map(|one| Value::List(vec![one]))
+        }
+        (Kind::Integers(low, high), DeValue::Integer(_)) => {
+            whole_number(value, low, high).map(|one| Value::Integers(vec![one]))
+        }
+        (Kind::Integers(low, high), DeValue::Array(list)) => {
+            whole_numbers(list, low, high).map(Value::Integers)
+        }
         (Kind::Grid, DeValue::Array(list)) => grid(list).map(Value::Grid),
         (Kind::Choice(built, planned), DeValue::String(text)) => choice(text, built, planned),
         (kind, value) => {
@@ -158,7 +171,7 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
                 type_name(value)
             ));
             Err(match (kind, key.example()) {
-                (Kind::Table, _) => refusal.hinting(format!(
+                (Kind::Table | Kind::TableOrList, _) => refusal.hinting(format!(
                     "write [{}] in a line of its own and its keys below",
                     key.path
                 )),
@@ -176,6 +189,7 @@ fn expected(kind: &Kind) -> String {
     match kind {
         Kind::Table => "a table".into(),
         Kind::TableList => "a list of tables".into(),
+        Kind::TableOrList => "a table, or a list of tables".into(),
         Kind::Text | Kind::Choice(..) => "text in quotes".into(),
         Kind::Flag => "true or false".into(),
         Kind::Integer(..) => "a whole number".into(),
@@ -191,6 +205,7 @@ fn expected(kind: &Kind) -> String {
             let unit = dimension.units().first().copied().unwrap_or_default();
             format!("a list of quantities, [\"1 {unit}\", \"2 {unit}\"]")
         }
+        Kind::Integers(..) => "a list of whole numbers, [1, 2]".into(),
         Kind::Grid => "two whole numbers, [128, 32]".into(),
         Kind::Limit(..) => "a table { value = \"..\", source = \"..\" }".into(),
         Kind::Vary => "a table of keys with their values".into(),
@@ -366,6 +381,21 @@ fn quantities(
                 _ => Err(Refusal::new(format!("must be {}", wanted()))),
             };
             read.map_err(|refusal| Refusal {
+                part: Some(value.span()),
+                ..refusal
+            })
+        })
+        .collect()
+}
+
+fn whole_numbers(list: &[Spanned<DeValue<'_>>], low: i64, high: i64) -> Result<Vec<i64>, Refusal> {
+    if list.is_empty() || list.len() > LONGEST_LIST {
+        return Err(Refusal::new(format!("has {} values", list.len()))
+            .allowing(format!("1 to {LONGEST_LIST} values")));
+    }
+    list.iter()
+        .map(|value| {
+            whole_number(value.get_ref(), low, high).map_err(|refusal| Refusal {
                 part: Some(value.span()),
                 ..refusal
             })

@@ -164,7 +164,7 @@ impl Reading<'_> {
                             .hinting(format!("`{part}[0].{rest}` is that of the first")),
                     ));
                 }
-                (Some(Kind::TableList), Some(_)) | (_, None) => {}
+                (Some(Kind::TableList | Kind::TableOrList), Some(_)) | (_, None) => {}
                 (Some(Kind::Pair(..) | Kind::Grid), Some(0 | 1)) if is_last => {}
                 (Some(Kind::Pair(..) | Kind::Grid), Some(_)) if is_last => {
                     return Err(Box::new(
@@ -365,7 +365,7 @@ fn is_section(path: &str, table: &DeTable<'_>) -> bool {
     let kind = names.and_then(|names| schema::find(&names.join(".")).map(|key| key.kind));
     let holds_keys = matches!(
         kind,
-        None | Some(Kind::Table | Kind::TableList | Kind::QuantityOrLaw(..))
+        None | Some(Kind::Table | Kind::TableList | Kind::TableOrList | Kind::QuantityOrLaw(..))
     );
     holds_keys && !looks_like_range
 }

@@ -24,9 +24,11 @@ const SUMMARY: &str = "summary.json";
 pub fn check_directory(directory: &Path, inputs: &[PathBuf]) -> Result<(), OutputError> {
     let taken = |path: PathBuf, reason| Err(OutputError::Taken { path, reason });
     let has_summary = holds_summary(directory);
-    for writer in WRITERS {
-        let name = writer.file_name();
-        let path = directory.join(name);
+    let files = WRITERS.iter().flat_map(|writer| {
+        let files = writer.files_in(directory).into_iter();
+        files.map(move |path| (writer, path))
+    });
+    for (writer, path) in files {
         let Ok(real) = fs::canonicalize(&path) else {
             continue;
         };
@@ -39,7 +41,7 @@ pub fn check_directory(directory: &Path, inputs: &[PathBuf]) -> Result<(), Outpu
         let is_table = path.extension().is_some_and(|kind| kind == "csv");
         let is_foreign = match is_table {
             true => !is_own_table(*writer, &path),
-            false => name == SUMMARY,
+            false => writer.file_name() == SUMMARY,
         };
         if !has_summary && is_foreign {
             return taken(path, "it is not the result of a run");
@@ -53,9 +55,19 @@ pub fn check_directory(directory: &Path, inputs: &[PathBuf]) -> Result<(), Outpu
 pub(super) fn holds_results(directory: &Path) -> bool {
     let has_table = || {
         let mut writers = WRITERS.iter();
-        writers.any(|writer| is_own_table(*writer, &directory.join(writer.file_name())))
+        writers.any(|writer| {
+            let files = writer.files_in(directory);
+            files.iter().any(|path| is_own_table(*writer, path))
+        })
     };
     holds_summary(directory) || has_table()
+}
+
+/// A file of a name of this format in a directory of results may be removed: whatever is no table, and
+/// tables that begin as this writer writes them.
+pub(super) fn is_ours(writer: &dyn ResultWriter, path: &Path) -> bool {
+    let is_table = path.extension().is_some_and(|kind| kind == "csv");
+    !is_table || is_own_table(writer, path)
 }
 
 fn holds_summary(directory: &Path) -> bool {

@@ -10,7 +10,7 @@
 //! | `/` | attributes `program`, `version`, `schema`, `analysis`, `status`, `title`, `messages`, `models`, `study` (the file as it was read), `study_hash` | every run |
 //! | `summary/` | the numbers of `summary.json` under the same keys; lists as arrays, nested keys as groups | every run |
 //! | `error/` | absolute discretisation errors by key of `summary/` | runs with error bars |
-//! | `limits/<quantity>/` | `limit` and `value`; attributes `verdict`, `source` | studies with limits |
+//! | `limits/<quantity>/` | `limit` and `value`; attributes `verdict`, `source`; of a machine `at`, the bearing and speed of the value | studies with limits |
 //! | `bearing/` | `diameter`, `width`, `radial_clearance` | bearings |
 //! | `film/` | `pressure`, `film_fraction`, `film_thickness` \[angle, axial\] with their axes | one state |
 //! | `cycle/` | the columns of `cycle.csv` \[crank_angle\]; `converged`, 1 where the step did | load cycles |
@@ -18,6 +18,16 @@
 //! | `accumulated/shell/`, `accumulated/journal/` | what each point of that surface has seen over the last cycle: `minimum_film_thickness`, `maximum_pressure`, `pressure_amplitude`, `full_film_share` \[angle, axial\], angles from +X of the surface | the same |
 //!
 //! `[output] fields` of the study chooses the instants of `fields/`.
+//!
+//! Of an engine or shaft each speed has a group `speeds/<speed>/`, such as `speeds/2000rpm/`:
+//!
+//! | where | holds |
+//! |---|---|
+//! | `engine/`, `orders/` | the columns of `engine.csv` and `orders.csv`, mean effective pressures, mean torque |
+//! | `torsion/` | natural frequencies, mean heat of each link |
+//! | `bearings/<name>/` | attributes `role`, `status`; in it `bearing/`, `load/` (the load cycle), `cycle/`, `accumulated/` as above; `worst/`, the film at its thinnest; at the first speed `fields/`, the frames of the cycle |
+
+mod machine;
 
 use super::csv::cycle_columns;
 use super::{OutputError, ResultWriter, StoredFields, json, replace_with};
@@ -86,17 +96,18 @@ pub fn write(
     file.limits(&results.header)?;
     match &results.body {
         Body::Steady(steady) => {
-            file.bearing(&steady.bearing)?;
+            file.bearing(root, &steady.bearing)?;
             if let Some(field) = &steady.field {
                 let group = file.file.group(root, "film")?;
                 file.snapshot(group, field)?;
             }
         }
         Body::LoadCycle(cycle) => {
-            file.bearing(&cycle.bearing)?;
-            file.cycle(cycle, stored)?;
+            file.bearing(root, &cycle.bearing)?;
+            file.cycle(root, cycle, stored)?;
         }
-        Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => {}
+        Body::Machine(machine) => file.machine(machine)?,
+        Body::Dimensionless(_) | Body::Sweep(_) => {}
     }
     file.file.finish()?.flush()
 }
@@ -192,13 +203,15 @@ impl<W: Write + Seek> Layout<W> {
             self.file
                 .set(group, "verdict", verdict.as_str().unwrap_or_default());
             self.file.set(group, "source", check.limit.source.as_str());
+            if let Some(at) = &check.at {
+                self.file.set(group, "at", at.as_str());
+            }
         }
         Ok(())
     }
 
-    fn bearing(&mut self, bearing: &Bearing) -> io::Result<()> {
-        let root = self.file.root();
-        let group = self.file.group(root, "bearing")?;
+    fn bearing(&mut self, place: Node, bearing: &Bearing) -> io::Result<()> {
+        let group = self.file.group(place, "bearing")?;
         for (name, value) in [
             ("diameter", bearing.diameter),
             ("width", bearing.width),
@@ -209,33 +222,48 @@ impl<W: Write + Seek> Layout<W> {
         Ok(())
     }
 
-    fn cycle(&mut self, cycle: &CycleResults, stored: StoredFields<'_>) -> io::Result<()> {
-        let root = self.file.root();
+    fn cycle(
+        &mut self,
+        place: Node,
+        cycle: &CycleResults,
+        stored: StoredFields<'_>,
+    ) -> io::Result<()> {
         if !cycle.orbit.points.is_empty() {
-            let group = self.file.group(root, "cycle")?;
-            self.columns(group, cycle)?;
+            let group = self.file.group(place, "cycle")?;
+            let mut columns = cycle_columns(cycle);
+            columns.push(converged(cycle));
+            self.columns(group, columns)?;
         }
-        let Some(fields) = &cycle.fields else {
-            return Ok(());
-        };
-        let accumulated = self.file.group(root, "accumulated")?;
+        match &cycle.fields {
+            Some(fields) => self.fields(place, fields, stored),
+            None => Ok(()),
+        }
+    }
+
+    /// What the surfaces have seen over a cycle, and the fields of its instants.
+    fn fields(
+        &mut self,
+        place: Node,
+        fields: &CycleFields,
+        stored: StoredFields<'_>,
+    ) -> io::Result<()> {
+        let accumulated = self.file.group(place, "accumulated")?;
         for (name, map) in [("shell", &fields.on_shell), ("journal", &fields.on_journal)] {
             let group = self.file.group(accumulated, name)?;
             self.accumulated(group, map)?;
         }
         match stored {
-            StoredFields::Spool(spool) if !spool.crank_angles().is_empty() => self.spooled(spool),
+            StoredFields::Spool(spool) if !spool.crank_angles().is_empty() => {
+                self.spooled(place, spool)
+            }
             StoredFields::Spool(_) | StoredFields::None => Ok(()),
-            StoredFields::Frames => self.frames(fields),
+            StoredFields::Frames => self.frames(place, fields),
         }
     }
 
-    fn columns(&mut self, group: Node, cycle: &CycleResults) -> io::Result<()> {
+    /// Columns of a table, the first of them the scale of the others.
+    fn columns(&mut self, group: Node, columns: Vec<(String, Vec<f64>)>) -> io::Result<()> {
         let mut scale = None;
-        let points = cycle.orbit.points.iter();
-        let is_solved = |p: &CyclePoint| f64::from(u8::from(p.outcome == Outcome::Converged));
-        let mut columns = cycle_columns(cycle);
-        columns.push(("converged[-]".to_owned(), points.map(is_solved).collect()));
         for (header, values) in columns {
             let (name, unit) = header.split_once('[').unwrap_or((&header, "-]"));
             let unit = match unit.trim_end_matches(']') {
@@ -245,7 +273,7 @@ impl<W: Write + Seek> Layout<W> {
             let node = self.add(group, name, unit, &[values.len()], &values)?;
             match scale {
                 None => scale = Some(node),
-                Some(crank_angle) => self.file.attach_scale(node, 0, crank_angle)?,
+                Some(first) => self.file.attach_scale(node, 0, first)?,
             }
         }
         Ok(())
@@ -297,9 +325,10 @@ impl<W: Write + Seek> Layout<W> {
         self.surface(group, &map.angles, &map.axial, &maps)
     }
 
-    fn spooled(&mut self, spool: &FieldSpool) -> io::Result<()> {
+    fn spooled(&mut self, place: Node, spool: &FieldSpool) -> io::Result<()> {
         let (angles, axial) = (spool.angles(), spool.axial());
         self.over_cycle(
+            place,
             spool.crank_angles(),
             angles,
             axial,
@@ -307,11 +336,12 @@ impl<W: Write + Seek> Layout<W> {
         )
     }
 
-    fn frames(&mut self, fields: &CycleFields) -> io::Result<()> {
+    fn frames(&mut self, place: Node, fields: &CycleFields) -> io::Result<()> {
         let frames = &fields.frames;
         let crank_angles: Vec<f64> = frames.iter().map(|frame| frame.crank_angle).collect();
         let grid = &fields.worst.field;
         self.over_cycle(
+            place,
             &crank_angles,
             &grid.angles,
             &grid.axial,
@@ -328,6 +358,7 @@ impl<W: Write + Seek> Layout<W> {
     /// The fields over crank angle, taken instant by instant.
     fn over_cycle(
         &mut self,
+        place: Node,
         crank_angles: &[f64],
         angles: &[f64],
         axial: &[f64],
@@ -336,8 +367,7 @@ impl<W: Write + Seek> Layout<W> {
         if crank_angles.is_empty() {
             return Ok(());
         }
-        let root = self.file.root();
-        let group = self.file.group(root, "fields")?;
+        let group = self.file.group(place, "fields")?;
         let crank = crank_angles.iter().copied().map(degrees).collect();
         let mut axes = vec![("crank_angle", "deg", crank)];
         axes.extend(surface_axes(angles, axial));
@@ -352,6 +382,13 @@ impl<W: Write + Seek> Layout<W> {
         }
         Ok(())
     }
+}
+
+/// The column that says at which crank angles the step was solved.
+fn converged(cycle: &CycleResults) -> (String, Vec<f64>) {
+    let points = cycle.orbit.points.iter();
+    let is_solved = |p: &CyclePoint| f64::from(u8::from(p.outcome == Outcome::Converged));
+    ("converged[-]".to_owned(), points.map(is_solved).collect())
 }
 
 fn surface_axes(angles: &[f64], axial: &[f64]) -> [Axis<'static>; 2] {

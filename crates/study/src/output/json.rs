@@ -2,12 +2,13 @@
 //!
 //! Numbers that are not finite become `null`: JSON has no word for them.
 
+use super::machine::{rounded_rpm, status_of};
 use super::{OutputError, ResultWriter};
 use crate::cases::{CaseStatus, SweepResults};
 use crate::limits::LimitCheck;
 use crate::models::Model;
 use crate::oil_holes::{OilHole, oil_holes};
-use crate::results::machine::MachineResults;
+use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{
     Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, PROGRAM,
     Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load, stability_name,
@@ -50,7 +51,7 @@ pub fn summary(results: &Results) -> Value {
         Body::Steady(steady) => steady_keys(steady),
         Body::LoadCycle(cycle) => cycle_keys(cycle),
         Body::Dimensionless(integrals) => dimensionless_keys(integrals),
-        Body::Machine(machine) => machine_keys(machine),
+        Body::Machine(machine) => machine_keys(machine, &results.header.limits),
         Body::Sweep(sweep) => sweep_keys(sweep),
     };
     if let Value::Object(body) = body {
@@ -69,9 +70,72 @@ pub fn summary(results: &Results) -> Value {
     Value::Object(object)
 }
 
-/// Bearings of the first speed, and every speed in a list of its own.
-fn machine_keys(machine: &MachineResults) -> Value {
-    json!({ "load_model": machine.load_model })
+/// The first speed at the top, every speed in a list of its own.
+fn machine_keys(machine: &MachineResults, limits: &[LimitCheck]) -> Value {
+    let mut keys = json!({ "load_model": machine.load_model });
+    let speeds: Vec<Value> = machine
+        .speeds
+        .iter()
+        .map(|speed| speed_keys(speed, limits))
+        .collect();
+    if let (Value::Object(keys), Some(Value::Object(first))) = (&mut keys, speeds.first()) {
+        // The status at the top is that of all speeds.
+        keys.extend(
+            first
+                .iter()
+                .filter(|(key, _)| *key != "status")
+                .map(|(key, value)| (key.clone(), value.clone())),
+        );
+    }
+    keys["speeds"] = Value::Array(speeds);
+    keys
+}
+
+/// A machine at one speed.
+fn speed_keys(speed: &SpeedResults, limits: &[LimitCheck]) -> Value {
+    let mut keys = json!({
+        "speed_rpm": rounded_rpm(speed.speed),
+        "status": status_name(speed.outcome),
+    });
+    if let Some(performance) = &speed.performance {
+        keys["imep_pa"] = json!(performance.indicated_mean_effective_pressure);
+        keys["mean_torque_n_m"] = json!(performance.mean_torque);
+        keys["swept_volume_m3"] = json!(performance.swept_volume);
+    }
+    if let Some(lost) = speed.friction_mean_effective_pressure {
+        keys["friction_mean_effective_pressure_pa"] = json!(lost);
+    }
+    let total: f64 = speed
+        .bearings
+        .iter()
+        .map(|bearing| bearing.cycle.mean(|point| point.summary.power_loss()))
+        .sum();
+    keys["mean_power_loss_w"] = json!(total);
+    if let Some(torsion) = &speed.torsion {
+        keys["natural_frequencies_hz"] = json!(torsion.natural_frequencies);
+    }
+    let bearings = speed.bearings.iter();
+    keys["bearings"] = bearings
+        .map(|bearing| bearing_keys(bearing, limits))
+        .collect();
+    keys
+}
+
+/// One bearing at one speed: the keys of a load cycle and its place.
+fn bearing_keys(bearing: &BearingResults, limits: &[LimitCheck]) -> Value {
+    let mut keys = json!({
+        "name": bearing.name,
+        "role": bearing.role.name(),
+        "status": status_of(bearing),
+    });
+    if let (Value::Object(keys), Value::Object(cycle)) = (&mut keys, cycle_keys(&bearing.cycle)) {
+        keys.extend(cycle);
+    }
+    if !limits.is_empty() {
+        let checks = limits.iter().map(|check| bearing.check(&check.limit));
+        keys["limits"] = checks.map(|check| limit(&check)).collect();
+    }
+    keys
 }
 
 fn header(header: &Header) -> Map<String, Value> {
@@ -115,6 +179,9 @@ fn limit(check: &LimitCheck) -> Value {
     object.insert(format!("value_{unit}"), json!(check.found));
     object.insert("verdict".into(), json!(check.verdict));
     object.insert("source".into(), json!(check.limit.source));
+    if let Some(at) = &check.at {
+        object.insert("at".into(), json!(at));
+    }
     Value::Object(object)
 }
 

@@ -5,6 +5,7 @@ mod earlier;
 mod hdf5;
 mod html;
 mod json;
+mod machine;
 mod stability;
 mod vtk;
 
@@ -13,6 +14,7 @@ pub use earlier::check_directory;
 pub use hdf5::Hdf5Results;
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
+pub use machine::{BearingTables, BearingsTable, EngineTables};
 pub use stability::StabilityTable;
 pub use vtk::ParaView;
 
@@ -34,8 +36,8 @@ pub enum StoredFields<'a> {
     None,
 }
 
-/// One format of results: a file whose content fits in the memory (`content`), or whatever `write`
-/// makes of it.
+/// One format of results: a file whose content fits in the memory (`content`), or whatever files
+/// `write` makes of it and `files_in` finds again.
 pub trait ResultWriter: Sync {
     /// Name of the file this format is written to, without directory; of several files, that of the
     /// one to open.
@@ -48,6 +50,16 @@ pub trait ResultWriter: Sync {
     /// replace it.
     fn is_own_table(&self, _first_line: &str) -> bool {
         false
+    }
+
+    /// Files of this format that may lie in a directory, of whichever run.
+    fn files_in(&self, directory: &Path) -> Vec<PathBuf> {
+        let path = directory.join(self.file_name());
+        if path.exists() {
+            vec![path]
+        } else {
+            Vec::new()
+        }
     }
 
     /// The content of the file; `None` if these results have nothing for this format.
@@ -87,6 +99,9 @@ pub const WRITERS: &[&dyn ResultWriter] = &[
     &ParaView,
     &StabilityTable,
     &CaseTable,
+    &BearingsTable,
+    &EngineTables,
+    &BearingTables,
     &HtmlReport,
     &SummaryJson,
 ];
@@ -171,8 +186,11 @@ pub fn write_stored(
     let mut files = Vec::new();
     for writer in WRITERS {
         let written = writer.write(results, stored, directory)?;
-        let path = directory.join(writer.file_name());
-        if written.is_empty() && is_earlier_run && path.exists() {
+        let left = writer.files_in(directory).into_iter();
+        for path in left.filter(|path| !written.contains(path)) {
+            if !(is_earlier_run && earlier::is_ours(*writer, &path)) {
+                continue;
+            }
             fs::remove_file(&path).map_err(|source| OutputError::Disk {
                 action: "remove what an earlier run left,",
                 path,

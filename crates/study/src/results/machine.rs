@@ -1,10 +1,16 @@
 //! What a run of an engine or shaft found: every bearing at every speed.
+//!
+//! Of the film at each speed the fields of the worst instant and what each point of the surfaces has
+//! seen are kept; frames over the cycle, at most [`MACHINE_FRAMES`], at the first speed only.
 
-use super::CycleResults;
-use crate::limits::{Quantity, Side};
+use super::{CycleResults, rpm};
+use crate::limits::{Limit, LimitCheck, Quantity, Side, Verdict};
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{Performance, Role, TorsionResponse};
 use sommerfeld_film::Outcome;
+
+/// Instants of a cycle that are kept of every bearing of a machine, at the first of its speeds.
+pub const MACHINE_FRAMES: usize = 24;
 
 /// Every bearing of a machine at every speed.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +55,96 @@ pub struct BearingResults {
     pub determinate_load: Option<Vec<[f64; 2]>>,
     /// Orbit, film and what follows.
     pub cycle: CycleResults,
+}
+
+impl MachineResults {
+    /// Every bearing at every speed with that speed, speed by speed.
+    pub fn bearings(&self) -> impl Iterator<Item = (&SpeedResults, &BearingResults)> {
+        let speeds = self.speeds.iter();
+        speeds.flat_map(|speed| speed.bearings.iter().map(move |bearing| (speed, bearing)))
+    }
+
+    /// The bearing and speed at which a value is largest, the first of equals; what is not finite does
+    /// not count.
+    pub fn largest(
+        &self,
+        value: impl Fn(&BearingResults) -> Option<f64>,
+    ) -> Option<(&SpeedResults, &BearingResults, f64)> {
+        self.bearings()
+            .filter_map(|(speed, bearing)| Some((speed, bearing, value(bearing)?)))
+            .filter(|(_, _, value)| value.is_finite())
+            .reduce(|best, next| if next.2 > best.2 { next } else { best })
+    }
+
+    /// Orbits that an interrupted run has not done.
+    #[must_use]
+    pub fn missing(&self) -> usize {
+        self.bearings()
+            .filter(|(_, bearing)| bearing.is_missing())
+            .count()
+    }
+
+    /// The worst of all bearings and speeds against a limit, with its place. A limit that one of them
+    /// breaks is broken; one that is not judged everywhere is not kept.
+    #[must_use]
+    pub fn check(&self, limit: &Limit) -> LimitCheck {
+        let severity = |check: &LimitCheck| match check.verdict {
+            Verdict::Ok => 0,
+            Verdict::NotEvaluated => 1,
+            Verdict::Exceeded => 2,
+        };
+        let checks = self.bearings().map(|(speed, bearing)| LimitCheck {
+            at: Some(speed.place(bearing)),
+            ..bearing.check(limit)
+        });
+        checks
+            .reduce(|worst, next| {
+                let worse = match severity(&next).cmp(&severity(&worst)) {
+                    std::cmp::Ordering::Equal => next.is_worse_than(&worst),
+                    other => other.is_gt(),
+                };
+                if worse { next } else { worst }
+            })
+            .unwrap_or_else(|| LimitCheck::new(limit.clone(), None))
+    }
+}
+
+impl SpeedResults {
+    /// A bearing at this speed, for a reader: `big-end-2 at 2000 rpm`.
+    #[must_use]
+    pub fn place(&self, bearing: &BearingResults) -> String {
+        format!("{} at {}", bearing.name, speed_words(self.speed))
+    }
+
+    /// The speed as it stands in names of directories and groups: `2000rpm`.
+    #[must_use]
+    pub fn label(&self) -> String {
+        speed_words(self.speed).replace(' ', "")
+    }
+}
+
+/// An angular speed (rad/s) for a reader, `2000 rpm`: as many decimals as it has, three at most.
+#[must_use]
+pub fn speed_words(speed: f64) -> String {
+    format!("{} rpm", (1e3 * rpm(speed)).round() / 1e3)
+}
+
+impl BearingResults {
+    /// An interrupted run has not done this orbit.
+    #[must_use]
+    pub fn is_missing(&self) -> bool {
+        let orbit = &self.cycle.orbit;
+        orbit.outcome == Outcome::NotConverged && orbit.cycles == 0
+    }
+
+    /// This bearing at its speed against a limit. A limit that seems kept is not called kept if the
+    /// orbit did not converge.
+    #[must_use]
+    pub fn check(&self, limit: &Limit) -> LimitCheck {
+        let found = self.cycle.limited_value(limit.quantity);
+        let check = LimitCheck::new(limit.clone(), found);
+        check.unless(self.cycle.orbit.outcome != Outcome::Converged)
+    }
 }
 
 /// Where in a machine a quantity is worst.

@@ -3,9 +3,10 @@
 pub mod machine;
 
 use crate::cases::SweepResults;
-use crate::limits::{Limit, LimitCheck, Quantity, Verdict};
+use crate::limits::{Limit, LimitCheck, Quantity};
 use crate::models::Model;
 use machine::MachineResults;
+use serde::{Deserialize, Serialize};
 use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
 use sommerfeld_film::{
     Bearing, Extreme, FeedFlow, FilmField, FilmSummary, JournalState, Outcome, Reaction,
@@ -157,7 +158,7 @@ pub struct CycleResults {
 }
 
 /// The fields over the last cycle: single instants, and what each point of a surface has seen.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleFields {
     /// Evenly spaced crank angles over the period, ascending, at most [`MOST_FRAMES`].
     pub frames: Vec<CycleField>,
@@ -174,7 +175,7 @@ pub const MOST_FRAMES: usize = 72;
 
 /// What the points of one surface have seen over a cycle: point `i` around, `j` along the axis, at
 /// `i * axial.len() + j`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AccumulatedMap {
     /// Angles around, rad, from +X of the surface.
     pub angles: Vec<f64>,
@@ -192,7 +193,7 @@ pub struct AccumulatedMap {
 }
 
 /// The fields at one crank angle.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleField {
     /// Crank angle, rad.
     pub crank_angle: f64,
@@ -217,7 +218,7 @@ pub struct DimensionlessResults {
 
 /// The fields of a film at one instant, cell `i` around, `j` along the axis, at
 /// `i * axial.len() + j`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FieldSnapshot {
     /// Cell centres around, rad, from +X of the shell frame.
     pub angles: Vec<f64>,
@@ -268,18 +269,15 @@ impl Results {
     /// Holds the results against the limits of the study; the checks replace those of the header.
     /// A limit that seems kept is not called kept if the run did not converge.
     pub fn check_limits(&mut self, limits: &[Limit]) {
-        let checks = limits
-            .iter()
-            .map(|limit| {
+        let not_converged = self.header.status != Outcome::Converged;
+        let checks = limits.iter().map(|limit| match &self.body {
+            Body::Machine(machine) => machine.check(limit),
+            _ => {
                 let found = self.limited_value(limit.quantity);
-                let mut check = LimitCheck::new(limit.clone(), found);
-                if self.header.status != Outcome::Converged && check.verdict == Verdict::Ok {
-                    check.verdict = Verdict::NotEvaluated;
-                }
-                check
-            })
-            .collect();
-        self.header.limits = checks;
+                LimitCheck::new(limit.clone(), found).unless(not_converged)
+            }
+        });
+        self.header.limits = checks.collect();
     }
 
     /// The result that a limit of this quantity judges, SI.
@@ -335,6 +333,23 @@ impl SteadyResults {
 }
 
 impl CycleResults {
+    /// The result that a limit of this quantity judges, SI.
+    #[must_use]
+    pub fn limited_value(&self, quantity: Quantity) -> Option<f64> {
+        match quantity {
+            Quantity::MinimumFilmThickness => self
+                .minimum_film_thickness()
+                .map(|point| point.summary.minimum_film_thickness.value),
+            Quantity::PeakFilmPressure => self
+                .peak_film_pressure()
+                .map(|point| point.summary.peak_film_pressure.value),
+            Quantity::MaximumSpecificLoad => self
+                .maximum_load()
+                .map(|point| specific_load(&self.bearing, point.load)),
+            Quantity::PowerLoss => Some(self.mean(|point| point.summary.power_loss())),
+        }
+    }
+
     /// The point with the thinnest film.
     #[must_use]
     pub fn minimum_film_thickness(&self) -> Option<&CyclePoint> {
@@ -351,22 +366,6 @@ impl CycleResults {
     #[must_use]
     pub fn maximum_load(&self) -> Option<&CyclePoint> {
         self.largest(|point| magnitude(point.load))
-    }
-
-    /// The result that a limit of this quantity judges, SI.
-    pub(crate) fn limited_value(&self, quantity: Quantity) -> Option<f64> {
-        match quantity {
-            Quantity::MinimumFilmThickness => self
-                .minimum_film_thickness()
-                .map(|point| point.summary.minimum_film_thickness.value),
-            Quantity::PeakFilmPressure => self
-                .peak_film_pressure()
-                .map(|point| point.summary.peak_film_pressure.value),
-            Quantity::MaximumSpecificLoad => self
-                .maximum_load()
-                .map(|point| specific_load(&self.bearing, point.load)),
-            Quantity::PowerLoss => Some(self.mean(|point| point.summary.power_loss())),
-        }
     }
 
     /// The point at which a value is largest, the first of equals; points where it is not finite

@@ -1,6 +1,6 @@
 //! Error bars of a run: the same study on other grids and with other time steps.
 
-use super::{ProgressCallback, solve_once};
+use super::{ProgressCallback, RunError, solve_once};
 use crate::input::{Duty, Study, Subject};
 use crate::models;
 use crate::progress::ProgressEvent;
@@ -8,13 +8,13 @@ use crate::results::{Body, DimensionlessResults, Header, Results, SteadyResults}
 use crate::verify::{
     Figures, GridRun, figures, relative_errors, space_errors, space_estimates, time_errors,
 };
+use sommerfeld_film::Outcome;
 use sommerfeld_film::dimensionless::{
     DimensionlessFilm, DimensionlessIntegrals, MOST_CELLS, refine_dimensionless,
 };
 use sommerfeld_film::richardson::{
     Kind, SMALLEST_GRID, Sample, cell_size, estimate, grid_sequence,
 };
-use sommerfeld_film::{FilmError, Outcome};
 use std::collections::BTreeMap;
 
 /// Most cells of a load cycle with an error target: 256 x 64. Each of its steps costs a film.
@@ -53,7 +53,7 @@ fn solve_at(
     resolution: Resolution,
     [from, to]: [f64; 2],
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     let [around, along] = resolution.grid;
     solve_once(&at(study, resolution), None, &mut |event| {
         progress(ProgressEvent {
@@ -70,7 +70,7 @@ pub(super) fn add_error_bars(
     study: &Study,
     results: &mut Results,
     progress: &mut ProgressCallback<'_>,
-) -> Result<(), FilmError> {
+) -> Result<(), RunError> {
     if results.header.status != Outcome::Converged {
         no_bars(results, "the run did not converge");
         return Ok(());
@@ -175,7 +175,7 @@ pub(super) fn solve_to_target(
     study: &Study,
     target: f64,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     let first = std::array::from_fn(|k| study.film.grid[k].max(SMALLEST_GRID[k]));
     match &study.subject {
         Subject::Sweep(_) | Subject::Machine(_) => solve_once(study, None, progress),
@@ -192,7 +192,7 @@ fn dimensionless_to_target(
     film: &DimensionlessFilm,
     first: [usize; 2],
     target: f64,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     let refined = refine_dimensionless(film, first, target)?;
     let mut header = super::header(study);
     super::note_outcome(refined.outcome, &mut header);
@@ -257,7 +257,7 @@ fn steady_to_target(
     first: [usize; 2],
     target: f64,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     let mut runs: Vec<([usize; 2], Results)> = Vec::new();
     let grids = grid_sequence(first).collect::<Vec<_>>();
     let mut best = None;
@@ -390,7 +390,7 @@ impl CycleRuns<'_> {
         &mut self,
         resolution: Resolution,
         progress: &mut ProgressCallback<'_>,
-    ) -> Result<usize, FilmError> {
+    ) -> Result<usize, RunError> {
         if let Some(k) = self.done.iter().position(|run| run.0 == resolution) {
             return Ok(k);
         }
@@ -408,7 +408,7 @@ fn cycle_to_target(
     first: [usize; 2],
     target: f64,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     let grids: Vec<_> = grid_sequence(first).collect();
     let mut runs = CycleRuns {
         study,

@@ -6,12 +6,15 @@ use super::{
 };
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, CycleResults, Header, InstantCoefficients};
+use crate::results::{Body, CycleResults, Header, InstantCoefficients, MOST_FRAMES};
 use crate::spool::FieldSpool;
 use sommerfeld_bearing::{
-    CyclePoint, JournalOrbit, OrbitSettings, Progress, instant_coefficients, journal_orbit,
+    CyclePoint, JournalOrbit, LoadCycle, OrbitSettings, Progress, instant_coefficients,
+    journal_orbit,
 };
-use sommerfeld_film::{FeedFlow, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step};
+use sommerfeld_film::{
+    Bearing, FeedFlow, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step,
+};
 use std::ops::ControlFlow;
 
 pub(super) fn solve_cycle(
@@ -22,45 +25,100 @@ pub(super) fn solve_cycle(
     spool: Option<&mut FieldSpool>,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Body, FilmError> {
-    let mut film = film_of(case, settings)?;
-    let no_orbit = CycleResults {
-        bearing: case.bearing.clone(),
+    let recorder = FieldRecorder::new(
+        orbit_settings(duty).points_per_cycle(&duty.cycle),
+        MOST_FRAMES,
+        case.bearing.cavitation_pressure,
+        spool,
+    );
+    let solved = bearing_cycle(case, duty, settings, recorder, progress)?;
+    note_outcome(solved.results.orbit.outcome, header);
+    if let Some((crank_angle, edge)) = solved.edge_contact {
+        let at = format!("at crank angle {:.1} deg", crank_angle.to_degrees());
+        note_edge_contact(edge, &at, header);
+    }
+    if solved.stopped {
+        header.messages.insert(
+            0,
+            "interrupted: the orbit is that of an unfinished run".to_owned(),
+        );
+    }
+    Ok(Body::LoadCycle(Box::new(solved.results)))
+}
+
+/// What the load cycle of one bearing left.
+pub(super) struct SolvedCycle {
+    /// The orbit and what its points do not hold.
+    pub results: CycleResults,
+    /// Crank angle (rad) and edge (0 the front, 1 the rear) where a moment presses the journal to
+    /// contact.
+    pub edge_contact: Option<(f64, usize)>,
+    /// The caller asked to stop before the orbit had closed.
+    pub stopped: bool,
+}
+
+/// The results of a bearing whose journal runs no orbit.
+pub(super) fn without_orbit(bearing: &Bearing, outcome: Outcome) -> CycleResults {
+    CycleResults {
+        bearing: bearing.clone(),
         orbit: JournalOrbit {
             points: Vec::new(),
             cycles: 0,
             closure: f64::NAN,
             steps: 0,
             film_solves: 0,
-            outcome: Outcome::Starved,
+            outcome,
         },
         feed_flows: Vec::new(),
         fields: None,
         coefficients: Vec::new(),
-    };
-    // Without supply the film would empty over the cycles and the journal sink into the shell.
+    }
+}
+
+/// Whether the film of a bearing gets no oil at all: it would empty over the cycles and the journal
+/// sink into the shell.
+pub(super) fn is_starved(
+    case: &BearingCase,
+    engine_speed: f64,
+    settings: &FilmSettings,
+) -> Result<bool, FilmError> {
     let centred = JournalState {
-        journal_speed: duty.cycle.engine_speed,
+        journal_speed: engine_speed,
         ..JournalState::default()
     };
-    if film
-        .linearise(&centred, Step::Steady, &conditions(case))?
-        .outcome
-        == Outcome::Starved
-    {
-        note_outcome(Outcome::Starved, header);
-        return Ok(Body::LoadCycle(Box::new(no_orbit)));
-    }
+    let mut film = film_of(case, settings)?;
+    let found = film.linearise(&centred, Step::Steady, &conditions(case))?;
+    Ok(found.outcome == Outcome::Starved)
+}
+
+/// How the orbit of a duty is computed.
+pub(super) fn orbit_settings(duty: &CycleDuty) -> OrbitSettings {
     let usual = OrbitSettings::default();
-    let orbit_settings = OrbitSettings {
+    OrbitSettings {
         error_tolerance: usual.error_tolerance * duty.step_error_factor,
         history_error_tolerance: usual.history_error_tolerance * duty.step_error_factor,
         crank_step: duty.crank_step,
         cycle_limit: duty.maximum_cycles,
         closure_tolerance: duty.closure_tolerance,
         ..usual
-    };
-    let points = orbit_settings.points_per_cycle(&duty.cycle);
-    let fields = FieldRecorder::new(points, case.bearing.cavitation_pressure, spool);
+    }
+}
+
+/// The orbit of one bearing over its load cycle, with the fields that `fields` records.
+pub(super) fn bearing_cycle(
+    case: &BearingCase,
+    duty: &CycleDuty,
+    settings: &FilmSettings,
+    fields: FieldRecorder<'_>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<SolvedCycle, FilmError> {
+    if is_starved(case, duty.cycle.engine_speed, settings)? {
+        return Ok(SolvedCycle {
+            results: without_orbit(&case.bearing, Outcome::Starved),
+            edge_contact: None,
+            stopped: false,
+        });
+    }
     let mut watch = CycleWatch::new(duty, fields);
     let mut film = film_of(case, settings)?;
     let mut orbit = journal_orbit(
@@ -68,35 +126,14 @@ pub(super) fn solve_cycle(
         &case.bearing,
         &duty.cycle,
         &conditions(case),
-        &orbit_settings,
+        &orbit_settings(duty),
         &mut |point, film, stage| watch.see(point, film, stage, progress),
     )?;
     for point in &mut orbit.points {
         point.summary = with_reynolds_number(point.summary, case, &point.state);
     }
-    note_outcome(orbit.outcome, header);
-    let contact = orbit.edge_contact(&duty.cycle, case.bearing.radial_clearance);
-    if let Some((crank_angle, edge)) = contact {
-        let at = format!("at crank angle {:.1} deg", crank_angle.to_degrees());
-        note_edge_contact(edge, &at, header);
-    }
-    if watch.stopped {
-        header.messages.insert(
-            0,
-            "interrupted: the orbit is that of an unfinished run".to_owned(),
-        );
-    }
     let coefficients = watch.coefficients(case, film.as_mut())?;
-    let mut feed_flows = watch.feed_flows;
-    // The observer also saw the start of a cycle, which is not a point of its own.
-    feed_flows.drain(..feed_flows.len().saturating_sub(orbit.points.len()));
-    Ok(Body::LoadCycle(Box::new(CycleResults {
-        bearing: case.bearing.clone(),
-        orbit,
-        feed_flows,
-        fields: watch.fields.finish(),
-        coefficients,
-    })))
+    Ok(watch.finish(case, &duty.cycle, orbit, coefficients))
 }
 
 /// A crank angle at which coefficients are asked for, and what was seen nearest to it.
@@ -106,7 +143,7 @@ struct Request {
 }
 
 /// Copies from the running orbit what its points do not hold, and passes its progress on.
-struct CycleWatch<'a> {
+pub(super) struct CycleWatch<'a> {
     requests: Vec<Request>,
     period: f64,
     crank_step: f64,
@@ -117,7 +154,7 @@ struct CycleWatch<'a> {
 }
 
 impl<'a> CycleWatch<'a> {
-    fn new(duty: &CycleDuty, fields: FieldRecorder<'a>) -> Self {
+    pub(super) fn new(duty: &CycleDuty, fields: FieldRecorder<'a>) -> Self {
         /// Cycles that most orbits take to close: for the estimate of the time left.
         const USUAL_CYCLES: usize = 4;
         Self {
@@ -138,7 +175,7 @@ impl<'a> CycleWatch<'a> {
         }
     }
 
-    fn see(
+    pub(super) fn see(
         &mut self,
         point: &CyclePoint,
         film: &dyn FilmForce,
@@ -171,6 +208,30 @@ impl<'a> CycleWatch<'a> {
         let answer = progress(event);
         self.stopped |= answer.is_break();
         answer
+    }
+
+    /// What was seen beside the orbit that it led to.
+    pub(super) fn finish(
+        self,
+        case: &BearingCase,
+        cycle: &LoadCycle,
+        orbit: JournalOrbit,
+        coefficients: Vec<InstantCoefficients>,
+    ) -> SolvedCycle {
+        let mut feed_flows = self.feed_flows;
+        // The observer also saw the start of a cycle, which is not a point of its own.
+        feed_flows.drain(..feed_flows.len().saturating_sub(orbit.points.len()));
+        SolvedCycle {
+            edge_contact: orbit.edge_contact(cycle, case.bearing.radial_clearance),
+            stopped: self.stopped,
+            results: CycleResults {
+                bearing: case.bearing.clone(),
+                orbit,
+                feed_flows,
+                fields: self.fields.finish(),
+                coefficients,
+            },
+        }
     }
 
     /// Stiffness and damping at what was seen last near each crank angle asked for.

@@ -1,6 +1,7 @@
 //! From a checked study to results in a directory: which film, which analysis, what it means.
 
 mod accuracy;
+mod crew;
 mod cycle;
 mod inputs;
 mod machine;
@@ -21,14 +22,14 @@ use crate::sanity;
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use inputs::input_rows;
-use machine::{models_of_machine, solve_machine};
+use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
     MobilityFilm, Outcome, ShortBearingFilm,
 };
-use sommerfeld_oil::ViscosityLaw;
+use sommerfeld_oil::{Lubricant, ViscosityLaw};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -65,10 +66,26 @@ pub enum RunError {
     /// The film refuses what the study asks of it.
     #[error("{0}")]
     Film(#[from] FilmError),
+    /// The same for one bearing of a machine.
+    #[error("{place}: {source}")]
+    Bearing {
+        /// The bearing and the speed.
+        place: String,
+        /// What the film says.
+        source: FilmError,
+    },
+    /// Crankshaft, supports or torsional chain of a machine cannot be computed.
+    #[error("{place}: {reason}")]
+    Machine {
+        /// The part and the speed.
+        place: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Results could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),
-    /// The ledger of a sweep cannot be used.
+    /// The ledger of the run cannot be used.
     #[error("{0}")]
     Ledger(#[from] LedgerError),
     /// The base study of a sweep, or a file it names, is not the one that was checked.
@@ -106,6 +123,9 @@ pub fn run_with(
     if let Subject::Sweep(plan) = &study.subject {
         return run_sweep(study, plan, directory, options, progress);
     }
+    if let Subject::Machine(plan) = &study.subject {
+        return run_machine(study, plan, directory, options, progress);
+    }
     // Better told before a long run than after it.
     check_directory(directory, &study.files)?;
     prepare_directory(directory)?;
@@ -135,8 +155,8 @@ pub fn run_with(
 /// Runs `study` and writes nothing.
 ///
 /// # Errors
-/// [`FilmError`] where the film refuses what the study asks of it.
-pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Results, FilmError> {
+/// [`RunError`] where the film refuses what the study asks of it.
+pub fn solve(study: &Study, progress: &mut ProgressCallback<'_>) -> Result<Results, RunError> {
     solve_into(study, RunOptions::default(), None, progress)
 }
 
@@ -162,7 +182,7 @@ pub fn solve_with(
     study: &Study,
     options: RunOptions,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     solve_into(study, options, None, progress)
 }
 
@@ -172,9 +192,11 @@ fn solve_into(
     options: RunOptions,
     spool: Option<&mut FieldSpool>,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
-    if let Subject::Sweep(plan) = &study.subject {
-        return Ok(solve_sweep(study, plan, options, progress));
+) -> Result<Results, RunError> {
+    match &study.subject {
+        Subject::Sweep(plan) => return Ok(solve_sweep(study, plan, options, progress)),
+        Subject::Machine(plan) => return solve_machine(study, plan, options, progress),
+        Subject::Bearing(_) | Subject::Dimensionless(_) => {}
     }
     let start = Instant::now();
     let target = study
@@ -198,12 +220,17 @@ fn solve_into(
         None => solve_once(study, spool, progress)?,
     };
     results.header.wall_time = start.elapsed().as_secs_f64();
+    finish_results(study, &mut results);
+    Ok(results)
+}
+
+/// Holds results against the limits of the study and against what its physics can mean.
+fn finish_results(study: &Study, results: &mut Results) {
     results.check_limits(&limits(study));
     let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
     results.header.messages.extend(beyond_laminar);
-    let warnings = sanity::warnings(&results);
+    let warnings = sanity::warnings(results);
     results.header.messages.extend(warnings);
-    Ok(results)
 }
 
 /// The study as it stands, on one grid.
@@ -211,13 +238,15 @@ fn solve_once(
     study: &Study,
     spool: Option<&mut FieldSpool>,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Results, FilmError> {
+) -> Result<Results, RunError> {
     let mut header = header(study);
     let body = match &study.subject {
         Subject::Sweep(plan) => {
             return Ok(solve_sweep(study, plan, RunOptions::default(), progress));
         }
-        Subject::Machine(plan) => solve_machine(plan, &study.film, &mut header, progress)?,
+        Subject::Machine(plan) => {
+            return solve_machine(study, plan, RunOptions::default(), progress);
+        }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.duty {
             Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
@@ -274,15 +303,19 @@ fn models_of(study: &Study) -> Vec<Model> {
             if study.film.model.is_field() {
                 used.extend(models::of_bearing(&case.bearing));
             }
-            let law = match case.lubricant.viscosity {
-                ViscosityLaw::Constant { .. } => "constant",
-                ViscosityLaw::Vogel { .. } => "vogel",
-                ViscosityLaw::AstmD341 { .. } => "astm-d341",
-            };
-            used.extend(models::find("viscosity", law));
+            used.extend(models::find("viscosity", viscosity_law(&case.lubricant)));
         }
     }
     used
+}
+
+/// As in the study file.
+fn viscosity_law(lubricant: &Lubricant) -> &'static str {
+    match lubricant.viscosity {
+        ViscosityLaw::Constant { .. } => "constant",
+        ViscosityLaw::Vogel { .. } => "vogel",
+        ViscosityLaw::AstmD341 { .. } => "astm-d341",
+    }
 }
 
 /// Whether the journal cannot tilt in this duty.
@@ -295,7 +328,10 @@ fn stays_aligned(duty: &Duty) -> bool {
 }
 
 /// The film model that the study names.
-fn film_of(case: &BearingCase, settings: &FilmSettings) -> Result<Box<dyn FilmForce>, FilmError> {
+fn film_of(
+    case: &BearingCase,
+    settings: &FilmSettings,
+) -> Result<Box<dyn FilmForce + Send>, FilmError> {
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
     Ok(match settings.model {
         FilmModel::Field if stays_aligned(&case.duty) => Box::new(FilmSolver::aligned(
@@ -361,34 +397,44 @@ fn solve_paper(
 
 /// Says that no tilt of the journal balances its moment.
 fn note_edge_contact(edge: usize, at: &str, header: &mut Header) {
+    header.messages.insert(0, edge_contact_message(edge, at));
+}
+
+fn edge_contact_message(edge: usize, at: &str) -> String {
     let name = ["front (z = -B/2)", "rear (z = +B/2)"][edge];
-    let message = format!(
+    format!(
         "edge contact: {at} the moment presses the {name} edge of the journal to contact, a film \
          between rigid surfaces carries no such moment there; give a smaller moment, a wider \
          bearing or a smaller clearance, or prescribe the tilt"
-    );
-    header.messages.insert(0, message);
+    )
 }
 
 /// Sets the status and says what it means and what to do.
 fn note_outcome(outcome: Outcome, header: &mut Header) {
     header.status = outcome;
-    let message = match outcome {
-        Outcome::Converged => return,
-        Outcome::NotConverged if header.analysis == "load-cycle" => {
+    if let Some(message) = outcome_message(outcome, &header.analysis) {
+        header.messages.insert(0, message.to_owned());
+    }
+}
+
+/// What an outcome means and what to do; nothing where all is well.
+fn outcome_message(outcome: Outcome, analysis: &str) -> Option<&'static str> {
+    let has_cycle = ["load-cycle", "engine", "shaft"].contains(&analysis);
+    match outcome {
+        Outcome::Converged => None,
+        Outcome::NotConverged if has_cycle => Some(
             "not converged: the numbers are those of the last iterate; try a finer crank_step or \
-             grid, or more maximum_cycles where only the orbit has not closed"
-        }
+             grid, or more maximum_cycles where only the orbit has not closed",
+        ),
         Outcome::NotConverged => {
-            "not converged: the numbers are those of the last iterate; try another grid"
+            Some("not converged: the numbers are those of the last iterate; try another grid")
         }
-        Outcome::Starved => {
+        Outcome::Starved => Some(
             "starved: side flow leaves and no oil enters, so that the mass-conserving film empties \
              and carries no load; give a groove or hole, or ends = \"flooded\" with \
              ambient_pressure above cavitation_pressure; or use cavitation = \"reynolds\", which \
-             needs no supply and does not conserve oil"
-        }
-        Outcome::NoSolution => "no solution: the film's equations determine no pressure here",
-    };
-    header.messages.insert(0, message.to_owned());
+             needs no supply and does not conserve oil",
+        ),
+        Outcome::NoSolution => Some("no solution: the film's equations determine no pressure here"),
+    }
 }

@@ -11,7 +11,7 @@
 //! stands is not interpolated at all. A share of the cycle is a mean over output points, which are
 //! evenly spaced; the indicator of a full film is interpolated like a field.
 
-use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot, MOST_FRAMES};
+use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot};
 use crate::spool::FieldSpool;
 use sommerfeld_bearing::{CyclePoint, Progress};
 use sommerfeld_film::FilmField;
@@ -21,6 +21,8 @@ use std::f64::consts::TAU;
 pub(super) struct FieldRecorder<'a> {
     /// Output points per cycle.
     points: usize,
+    /// Evenly spaced instants that are kept of them, at most.
+    frames: usize,
     /// Gauge pressure above which a full cell carries, Pa.
     cavitation_pressure: f64,
     /// Cycle of the record, and whether it holds the start of the run, which is no point of a
@@ -40,14 +42,17 @@ struct Record {
 }
 
 impl<'a> FieldRecorder<'a> {
-    /// For cycles of so many output points; a full film carries above the cavitation pressure, Pa.
+    /// For cycles of so many output points, of which at most `frames` are kept; a full film carries
+    /// above the cavitation pressure, Pa.
     pub(super) fn new(
         points: usize,
+        frames: usize,
         cavitation_pressure: f64,
         spool: Option<&'a mut FieldSpool>,
     ) -> Self {
         Self {
             points,
+            frames,
             cavitation_pressure,
             stage: (0, false),
             record: None,
@@ -87,7 +92,7 @@ impl<'a> FieldRecorder<'a> {
             record.least_film = thickness;
             record.worst = snapshot();
         }
-        if is_frame(index, self.points) {
+        if is_frame(index, self.points, self.frames) {
             record.frames.push(snapshot());
         }
         let least = self.cavitation_pressure;
@@ -111,9 +116,10 @@ impl<'a> FieldRecorder<'a> {
     }
 }
 
-/// Whether output point `index` of 1..=`points` is one of the evenly spaced frames; the last is.
-fn is_frame(index: usize, points: usize) -> bool {
-    let frames = points.min(MOST_FRAMES);
+/// Whether output point `index` of 1..=`points` is one of at most `most` evenly spaced frames; the
+/// last is.
+fn is_frame(index: usize, points: usize, most: usize) -> bool {
+    let frames = points.min(most);
     let until = |index: usize| index * frames / points;
     index > 0 && until(index) > until(index - 1)
 }
@@ -202,6 +208,7 @@ fn between(centres: &[f64], angle: f64) -> (usize, usize, f64) {
 #[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 mod tests {
     use super::*;
+    use crate::results::MOST_FRAMES;
     use sommerfeld_film::{FilmSummary, JournalState, Outcome, Reaction};
 
     const AROUND: usize = 96;
@@ -218,7 +225,7 @@ mod tests {
 
     /// The record of a wave of pressure 1 + cos(angle - speed turned), seen degree by degree.
     fn run(speed: f64, journal_speed: f64, cycles: usize) -> CycleFields {
-        let mut recorder = FieldRecorder::new(POINTS, 0.5, None);
+        let mut recorder = FieldRecorder::new(POINTS, MOST_FRAMES, 0.5, None);
         for cycle in 1..=cycles {
             for index in usize::from(cycle > 1)..=POINTS {
                 let turned = (cycle - 1) as f64 * TAU + index as f64 * TAU / POINTS as f64;
@@ -320,7 +327,9 @@ mod tests {
     #[test]
     fn frames_are_evenly_spaced_and_few() {
         for points in [1, 5, 72, 73, 100, 719, 7200] {
-            let frames: Vec<usize> = (1..=points).filter(|i| is_frame(*i, points)).collect();
+            let frames: Vec<usize> = (1..=points)
+                .filter(|i| is_frame(*i, points, MOST_FRAMES))
+                .collect();
             assert_eq!(frames.len(), points.min(MOST_FRAMES));
             assert_eq!(frames.last(), Some(&points));
             let gaps = frames.windows(2).map(|pair| pair[1] - pair[0]);

@@ -1,9 +1,9 @@
 //! A sweep: its cases over the threads, each finished one in the ledger before it counts.
 //!
-//! The calling thread alone owns the ledger and the progress; the others compute cases and send
-//! what becomes of them. A case is sequential, and the table is built from the summaries in the
-//! order of the cases, so that the results do not depend on the number of threads.
+//! A case is sequential, and the table is built from the summaries in the order of the cases, so that
+//! the results do not depend on the number of threads.
 
+use super::crew::{Desk, News, work_through};
 use super::{
     ProgressCallback, RunError, RunOptions, RunSummary, input_rows, models_of, solve_with,
 };
@@ -14,37 +14,18 @@ use crate::models::Model;
 use crate::output::{prepare_directory, replace_file, summary, write_all};
 use crate::progress::ProgressEvent;
 use crate::results::{Body, Header, InputRow, PROGRAM, Results, SCHEMA, VERSION};
-use rayon::prelude::*;
 use serde_json::json;
 use sommerfeld_film::Outcome;
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// Directory of the cases in that of the results.
 const CASES: &str = "cases";
-/// A sign of life at least this often, so that Ctrl-C is heard while long cases run.
-const HEARTBEAT: Duration = Duration::from_millis(200);
-/// Share of a case that is worth a message to the calling thread.
-const NOTABLE: f64 = 0.01;
 /// Cases named one by one among the messages; all of them are in the table.
 const NAMED: usize = 20;
-
-/// What a thread that computes tells the calling one.
-enum News {
-    Started(usize),
-    /// Share of a case that is done.
-    Share(usize, f64),
-    Finished(CaseRecord),
-    /// The case was given up because the run was stopped.
-    Abandoned(usize),
-    /// The machine failed, or a file changed.
-    Broken(RunError),
-}
 
 /// Runs the cases of a sweep that the directory does not hold yet, and writes the results of all.
 pub(super) fn run_sweep(
@@ -66,42 +47,18 @@ pub(super) fn run_sweep(
         .filter(|index| !records.contains_key(&(index + 1)))
         .collect();
     let found_done = records.len();
-    let stopped = AtomicBool::new(false);
-    if !todo.is_empty() {
-        // Without a number rayon takes one thread for each processor.
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(options.threads.unwrap_or(0))
-            .build()
-            .map_err(|error| RunError::Threads(error.to_string()))?;
-        let (sender, receiver) = channel();
-        let worker = Worker {
-            plan,
-            directory,
-            options,
-            stopped: &stopped,
-        };
-        let mut desk = Desk {
-            plan,
-            ledger: &mut ledger,
-            records: &mut records,
-            shares: HashMap::new(),
-            found_done,
-            stopped: &stopped,
-        };
-        let ended = std::thread::scope(|scope| {
-            let todo = &todo;
-            scope.spawn(move || {
-                // In order, each thread the next case: a sweep fills from its beginning.
-                pool.install(|| {
-                    todo.iter()
-                        .par_bridge()
-                        .for_each_with(sender, |sender, &index| worker.run_case(index, sender));
-                });
-            });
-            desk.serve(&receiver, progress)
-        });
-        ended?;
-    }
+    let mut desk = CaseDesk {
+        plan,
+        ledger: &mut ledger,
+        records: &mut records,
+        shares: HashMap::new(),
+        found_done,
+        progress,
+    };
+    let work = |index: usize, progress: &mut ProgressCallback<'_>| {
+        run_case(plan, index, directory, options, progress)
+    };
+    work_through(&todo, options.threads, &work, &mut desk)?;
     let mut results = assemble(study, plan, &records);
     results.header.wall_time = start.elapsed().as_secs_f64();
     if found_done > 0 {
@@ -145,61 +102,47 @@ pub(super) fn solve_sweep(
     results
 }
 
-/// What the threads that compute share.
-#[derive(Clone, Copy)]
-struct Worker<'a> {
-    plan: &'a SweepPlan,
-    directory: &'a Path,
+/// Computes a case and writes its files, unless the run was stopped.
+fn run_case(
+    plan: &SweepPlan,
+    index: usize,
+    directory: &Path,
     options: RunOptions,
-    stopped: &'a AtomicBool,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<CaseRecord, RunError> {
+    let mut interrupted = false;
+    // The threads are at work on cases: a case has one.
+    let alone = RunOptions {
+        threads: Some(1),
+        ..options
+    };
+    let (record, results) = solve_case(plan, index, alone, &mut |event| {
+        let answer = progress(event);
+        interrupted |= answer.is_break();
+        answer
+    })?;
+    if !interrupted {
+        write_case(plan, directory, &record, results.as_ref())?;
+    }
+    Ok(record)
 }
 
-impl Worker<'_> {
-    /// Computes a case, writes its files and sends what became of it. That nobody listens any more
-    /// is no failure of this thread.
-    fn run_case(&self, index: usize, news: &Sender<News>) {
-        let is_stopped = || self.stopped.load(Ordering::Relaxed);
-        if is_stopped() {
-            return;
+/// The files of a case, in `cases/0001`.
+fn write_case(
+    plan: &SweepPlan,
+    directory: &Path,
+    record: &CaseRecord,
+    results: Option<&Results>,
+) -> Result<(), RunError> {
+    let directory = case_directory(directory, record.number, plan.count());
+    prepare_directory(&directory)?;
+    match results {
+        Some(results) if plan.keep == Keep::All => {
+            write_all(results, &directory)?;
         }
-        let number = index + 1;
-        let _ = news.send(News::Started(number));
-        let mut told = 0.0;
-        let mut interrupted = false;
-        let ended = solve_case(self.plan, index, self.options, &mut |event| {
-            if event.done >= told + NOTABLE {
-                told = event.done;
-                let _ = news.send(News::Share(number, event.done));
-            }
-            if is_stopped() {
-                interrupted = true;
-                return ControlFlow::Break(());
-            }
-            ControlFlow::Continue(())
-        });
-        let outcome = match ended {
-            _ if interrupted => News::Abandoned(number),
-            Ok((record, results)) => match self.write(&record, results.as_ref()) {
-                Ok(()) => News::Finished(record),
-                Err(error) => News::Broken(error),
-            },
-            Err(error) => News::Broken(error),
-        };
-        let _ = news.send(outcome);
+        _ => replace_file(&directory.join("summary.json"), record.summary.as_bytes())?,
     }
-
-    /// The files of a case, in `cases/0001`.
-    fn write(&self, record: &CaseRecord, results: Option<&Results>) -> Result<(), RunError> {
-        let directory = case_directory(self.directory, record.number, self.plan.count());
-        prepare_directory(&directory)?;
-        match results {
-            Some(results) if self.plan.keep == Keep::All => {
-                write_all(results, &directory)?;
-            }
-            _ => replace_file(&directory.join("summary.json"), record.summary.as_bytes())?,
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// Where the files of a case lie: numbers of four digits, more where there are more cases.
@@ -264,85 +207,61 @@ fn solve_case(
 }
 
 /// The calling thread: writes the ledger, shows the progress, stops the others.
-struct Desk<'a> {
+struct CaseDesk<'a> {
     plan: &'a SweepPlan,
     ledger: &'a mut Ledger,
     records: &'a mut BTreeMap<usize, CaseRecord>,
-    /// Shares of the cases at work.
+    /// Shares of the cases at work, by index.
     shares: HashMap<usize, f64>,
     /// Cases that an earlier run has finished.
     found_done: usize,
-    stopped: &'a AtomicBool,
+    progress: &'a mut ProgressCallback<'a>,
 }
 
-impl Desk<'_> {
-    /// Until every thread has ended; the first failure is the one that is reported.
-    fn serve(
-        &mut self,
-        news: &Receiver<News>,
-        progress: &mut ProgressCallback<'_>,
-    ) -> Result<(), RunError> {
-        let mut failure = None;
-        self.show(None, progress);
-        loop {
-            let first = match news.recv_timeout(HEARTBEAT) {
-                Ok(first) => Some(first),
-                Err(RecvTimeoutError::Timeout) => None,
-                Err(RecvTimeoutError::Disconnected) => break,
-            };
-            // What has come in meanwhile shares one commit.
-            let batch: Vec<News> = first.into_iter().chain(news.try_iter()).collect();
-            match self.take(batch, progress) {
-                Ok(()) => self.show(None, progress),
-                Err(error) => {
-                    self.stopped.store(true, Ordering::Relaxed);
-                    failure = failure.or(Some(error));
-                }
-            }
-        }
-        failure.map_or(Ok(()), Err)
-    }
-
-    fn take(
-        &mut self,
-        batch: Vec<News>,
-        progress: &mut ProgressCallback<'_>,
-    ) -> Result<(), RunError> {
+impl Desk<CaseRecord> for CaseDesk<'_> {
+    fn take(&mut self, news: Vec<News<CaseRecord>>) -> Result<ControlFlow<()>, RunError> {
         let mut entries = Vec::new();
-        let mut broken = None;
-        for news in batch {
+        for news in news {
             match news {
-                News::Started(number) => {
-                    self.shares.insert(number, 0.0);
-                    entries.push(Entry::Started(number));
+                News::Started(index) => {
+                    self.shares.insert(index, 0.0);
+                    entries.push(Entry::Started(index + 1));
                 }
-                News::Share(number, share) => {
-                    self.shares.insert(number, share.min(1.0));
+                News::Share(index, share) => {
+                    self.shares.insert(index, share);
                 }
-                News::Abandoned(number) => {
-                    self.shares.remove(&number);
+                News::Abandoned(index) => {
+                    self.shares.remove(&index);
                 }
-                News::Finished(record) => {
-                    self.shares.remove(&record.number);
+                News::Finished(index, record) => {
+                    self.shares.remove(&index);
                     entries.push(Entry::Finished(record));
                 }
-                News::Broken(error) => broken = broken.or(Some(error)),
             }
         }
         if !entries.is_empty() {
             self.ledger.write(&entries)?;
         }
+        let mut answer = ControlFlow::Continue(());
         for entry in entries {
             if let Entry::Finished(record) = entry {
-                if record.status != CaseStatus::Converged {
-                    self.show(Some(self.told(&record)), progress);
+                if record.status != CaseStatus::Converged
+                    && self.tell(Some(self.told(&record))).is_break()
+                {
+                    answer = ControlFlow::Break(());
                 }
                 self.records.insert(record.number, record);
             }
         }
-        broken.map_or(Ok(()), Err)
+        Ok(answer)
     }
 
+    fn show(&mut self) -> ControlFlow<()> {
+        self.tell(None)
+    }
+}
+
+impl CaseDesk<'_> {
     fn told(&self, record: &CaseRecord) -> String {
         let inputs = self.plan.describe(record.number - 1);
         let (number, status) = (record.number, record.status.name());
@@ -350,20 +269,17 @@ impl Desk<'_> {
         format!("case {number} ({inputs}): {told}")
     }
 
-    fn show(&self, message: Option<String>, progress: &mut ProgressCallback<'_>) {
+    fn tell(&mut self, message: Option<String>) -> ControlFlow<()> {
         let total = self.plan.count();
         let done = self.records.len();
         let at_work: f64 = self.shares.values().sum();
         // The share of what this run has to do: the time left follows from it.
         let mine = (total - self.found_done).max(1) as f64;
         let share = ((done - self.found_done) as f64 + at_work) / mine;
-        let event = ProgressEvent {
+        (self.progress)(ProgressEvent {
             message,
             ..ProgressEvent::new(format!("{done} of {total} cases"), share)
-        };
-        if progress(event).is_break() {
-            self.stopped.store(true, Ordering::Relaxed);
-        }
+        })
     }
 }
 

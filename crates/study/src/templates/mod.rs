@@ -57,6 +57,84 @@ pub const TEMPLATES: &[Template] = &[
         files: &[("one-axis-loads.csv", include_str!("one-axis-loads.csv"))],
     },
     Template {
+        name: "engine-i1",
+        meaning: "every bearing of a single-cylinder engine",
+        study: concat!(
+            include_str!("engine-i1.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-i3",
+        meaning: "every bearing of an inline three-cylinder engine",
+        study: concat!(
+            include_str!("engine-i3.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-i4",
+        meaning: "every bearing of an inline four-cylinder engine",
+        study: concat!(
+            include_str!("engine-i4.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-i5",
+        meaning: "every bearing of an inline five-cylinder engine",
+        study: concat!(
+            include_str!("engine-i5.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-i6",
+        meaning: "every bearing of an inline six-cylinder engine",
+        study: concat!(
+            include_str!("engine-i6.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-v6",
+        meaning: "every bearing of a V6 engine of 60 deg",
+        study: concat!(
+            include_str!("engine-v6.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-v8",
+        meaning: "every bearing of a V8 engine of 90 deg",
+        study: concat!(
+            include_str!("engine-v8.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "engine-boxer",
+        meaning: "every bearing of a boxer engine of four cylinders",
+        study: concat!(
+            include_str!("engine-boxer.toml"),
+            include_str!("engine-parts.toml")
+        ),
+        files: &[],
+    },
+    Template {
+        name: "balancer-shaft",
+        meaning: "both bearings of a balancer shaft",
+        study: include_str!("balancer-shaft.toml"),
+        files: &[],
+    },
+    Template {
         name: "film",
         meaning: "one film at a given journal position",
         study: include_str!("film.toml"),

@@ -1,7 +1,6 @@
 //! Bearing and oil.
 
 use super::Checker;
-use crate::input::schema::Mode;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
 use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet, Shape};
@@ -139,7 +138,7 @@ impl Checker<'_> {
         if bearing.inlet == Inlet::Cyclic || !is_field {
             return;
         }
-        if self.mode == Mode::LoadCycle && bearing.cavitation == Cavitation::MassConserving {
+        if self.mode.is_cyclic() && bearing.cavitation == Cavitation::MassConserving {
             let error = self
                 .error_at(
                     INLET,

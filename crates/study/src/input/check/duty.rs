@@ -1,7 +1,8 @@
 //! What the bearing has to do: journal state, steady load, load cycle, or the dimensionless case.
 
 use super::Checker;
-use crate::input::load_file::{CycleSettings, read_load_table};
+use crate::input::error::InputError;
+use crate::input::load_file::{CycleSettings, LoadTable, read_load_table};
 use crate::input::schema::Mode;
 use crate::input::study::{
     BearingCase, CycleDuty, Duty, Rotor, SteadyLoad, StoredInstants, Subject, TiltCondition,
@@ -20,6 +21,19 @@ impl Checker<'_> {
     pub(super) fn subject(&mut self) -> Option<Subject> {
         if self.mode == Mode::Dimensionless {
             return self.dimensionless().map(Subject::Dimensionless);
+        }
+        if self.mode.is_machine() {
+            return self.machine();
+        }
+        if let Some(entry) = self.entry("bearing").filter(|e| e.value == Value::Tables) {
+            let message = format!("the analysis {} has one bearing", self.mode.name());
+            let error = self
+                .reading
+                .error(&entry.key_span, message)
+                .of_key("bearing");
+            self.errors
+                .push(error.hinting("write [bearing]; engines and shafts have several"));
+            return None;
         }
         let bearing = self.bearing();
         let temperature = self.number("oil.temperature");
@@ -238,12 +252,13 @@ impl Checker<'_> {
             journal_mass: number("journal_mass")?,
         };
         let closure_tolerance = number("closure_tolerance")?;
-        let crank_step = self.crank_step(settings.period);
+        let crank_step = self.crank_step("load_cycle", settings.period);
         let Value::Integer(maximum_cycles) = self.value("load_cycle.maximum_cycles")? else {
             return None;
         };
         let name = self.text("load_cycle.file")?;
-        let mut table = self.load_table(&name, &settings)?;
+        let named_at = self.error_at("load_cycle.file", "");
+        let mut table = self.load_table(&name, &settings, named_at)?;
         table.cycle.feed_pressures = std::mem::take(&mut self.feed_cycles);
         self.warnings.extend(table.warnings);
         self.check_cycle_tilt(&table.cycle, bearing);
@@ -310,12 +325,13 @@ impl Checker<'_> {
         }
     }
 
-    fn load_table(
+    /// The load table of a name that `named_at` is an error at.
+    pub(super) fn load_table(
         &mut self,
         name: &str,
         settings: &CycleSettings,
-    ) -> Option<crate::input::load_file::LoadTable> {
-        let named_at = self.error_at("load_cycle.file", "");
+        named_at: InputError,
+    ) -> Option<LoadTable> {
         let table = self.table_text(name, "load table", named_at)?;
         match read_load_table(&table.file, &table.text, settings) {
             Ok(table) => Some(table),
@@ -327,17 +343,17 @@ impl Checker<'_> {
     }
 
     /// The output step, which must divide the period so that cycles end on it.
-    fn crank_step(&mut self, period: f64) -> Option<f64> {
-        const PATH: &str = "load_cycle.crank_step";
-        let step = self.number(PATH)?;
+    pub(super) fn crank_step(&mut self, section: &str, period: f64) -> Option<f64> {
+        let given = format!("{section}.crank_step");
+        let step = self.number(&given)?;
         let steps = (period / step).round();
         if steps >= 1.0 && (steps * step - period).abs() <= 1e-9 * period && steps <= MOST_STEPS {
             return Some(period / steps);
         }
-        let path = if self.entry(PATH).is_some() {
-            PATH
-        } else {
-            "load_cycle.period"
+        let path = match (self.mode, self.entry(&given)) {
+            (_, Some(_)) => given.as_str(),
+            (Mode::Shaft, None) => "shaft.period",
+            _ => "load_cycle.period",
         };
         let nearest = round((period / steps.clamp(1.0, MOST_STEPS)).to_degrees());
         let error = self
@@ -351,6 +367,6 @@ impl Checker<'_> {
 }
 
 /// A number as it is shown in messages, without round-off tails.
-fn round(value: f64) -> f64 {
+pub(super) fn round(value: f64) -> f64 {
     (value * 1e4).round() / 1e4 + 0.0
 }

@@ -16,6 +16,9 @@ const PRESSURE: &str = "bearing.groove.pressure";
 const PRESSURE_FILE: &str = "bearing.groove.pressure_file";
 const LINE_RESISTANCE: &str = "bearing.groove.line_resistance";
 const INLET_RADIUS: &str = "bearing.groove.drilling_inlet_radius";
+const FED_BY: &str = "bearing.groove.fed_by";
+const INLET_ANGLE: &str = "bearing.groove.drilling_inlet_angle";
+const INLET_DIAMETER: &str = "bearing.groove.drilling_inlet_diameter";
 const OUTLET_RADIUS: &str = "bearing.groove.drilling_outlet_radius";
 
 impl Checker<'_> {
@@ -24,6 +27,7 @@ impl Checker<'_> {
         let mut feeds = Vec::new();
         let (mut errors, mut warnings) = (Vec::new(), Vec::new());
         let (mut cycles, mut read) = (Vec::new(), Vec::new());
+        let mut drillings = Vec::new();
         for (header, entries) in &self.reading.grooves {
             if errors.len() >= MOST_ERRORS {
                 break;
@@ -35,7 +39,11 @@ impl Checker<'_> {
                 bearing,
             };
             match groove.feed() {
-                Ok((feed, supply)) => {
+                Ok((feed, supply, drilling)) => {
+                    drillings.extend(drilling.map(|drilling| DrillingKeys {
+                        feed: feeds.len(),
+                        ..drilling
+                    }));
                     warnings.extend(groove.turning(&feed));
                     errors.extend(groove.clash(&feed, &feeds));
                     if let Supply::Table { table, from } = supply {
@@ -52,11 +60,36 @@ impl Checker<'_> {
             }
         }
         self.feed_cycles = cycles;
+        self.drillings = drillings;
         read.iter().for_each(|table| self.take_in(table));
         self.errors.extend(errors);
         self.warnings.extend(warnings);
         feeds
     }
+}
+
+/// A drilling in the crank of a machine, as given.
+#[derive(Debug, Clone)]
+pub(super) struct DrillingKeys {
+    /// Index of the hole among the feeds.
+    pub(super) feed: usize,
+    /// Radii of inlet and outlet, m, where they are given.
+    pub(super) radii: Option<[f64; 2]>,
+    /// The main bearing that feeds it.
+    pub(super) fed_by: Option<FedBy>,
+    /// An error at the key that is about the drilling.
+    pub(super) place: InputError,
+}
+
+/// Where a drilling takes its oil, as given.
+#[derive(Debug, Clone)]
+pub(super) struct FedBy {
+    /// Number of the main bearing, from 1: one for all cylinders, or one for each.
+    pub(super) mains: Vec<usize>,
+    /// Angle of the inlet from the crank arm, rad.
+    pub(super) inlet_angle: Option<f64>,
+    /// Diameter of the inlet, m; that of the hole where none is given.
+    pub(super) inlet_diameter: Option<f64>,
 }
 
 /// One `[[bearing.groove]]` being checked.
@@ -107,7 +140,7 @@ impl GrooveCheck<'_, '_> {
         self.checker.reading.error(span, message).of_key(path)
     }
 
-    fn feed(&self) -> Result<(Feed, Supply), Refused> {
+    fn feed(&self) -> Result<(Feed, Supply, Option<DrillingKeys>), Refused> {
         // What is wrong with the one is told beside what is wrong with the other.
         let (mut feed, mut supply) = match (self.outline(), self.supply()) {
             (Ok(feed), Ok(supply)) => (feed, supply),
@@ -116,9 +149,72 @@ impl GrooveCheck<'_, '_> {
                 return Err(errors.flatten().collect());
             }
         };
-        let head = self.head(&feed)?;
+        let radii = self.radii(&feed)?;
+        let drilling = self.drilling(&feed, radii)?;
+        if drilling.as_ref().is_some_and(|d| d.fed_by.is_some()) {
+            // Its pressure is found when the main bearings are known.
+            feed.pressure = self.bearing.ambient_pressure;
+            return Ok((feed, supply, drilling));
+        }
+        let head = self.head(radii)?;
         feed.pressure = self.raise(&mut supply, head)?;
-        Ok((feed, supply))
+        Ok((feed, supply, drilling))
+    }
+
+    /// The drilling of a machine, whose head changes with the speed.
+    fn drilling(
+        &self,
+        feed: &Feed,
+        radii: Option<[f64; 2]>,
+    ) -> Result<Option<DrillingKeys>, Refused> {
+        let with_main = [INLET_ANGLE, INLET_DIAMETER];
+        let lone = with_main.into_iter().find(|path| self.is_given(path));
+        if let Some(path) = lone.filter(|_| !self.is_given(FED_BY)) {
+            let error = self.error(
+                path,
+                "the inlet belongs to a drilling that a main bearing feeds",
+            );
+            return Err(vec![error.allowing("with fed_by")]);
+        }
+        let Some(Value::Integers(mains)) = value_in(self.entries, FED_BY) else {
+            let place = self.error(OUTLET_RADIUS, "");
+            let drilling = radii.map(|radii| DrillingKeys {
+                feed: 0,
+                radii: Some(radii),
+                fed_by: None,
+                place,
+            });
+            return Ok(drilling.filter(|_| self.checker.mode.is_machine()));
+        };
+        let refuse =
+            |message: &str, allowed: &str| Err(vec![self.error(FED_BY, message).allowing(allowed)]);
+        if self.checker.mode != Mode::Engine {
+            return refuse(
+                "only the hole in the pin of an engine is fed by a main bearing",
+                "pressure or pressure_file",
+            );
+        }
+        if feed.carried_by == Carrier::Shell {
+            let message = "a drilling in the crank feeds the journal, not the shell";
+            return refuse(message, "carried_by = \"journal\"");
+        }
+        if radii.is_some() {
+            let message = "the radii of a drilling from a main bearing follow from the crank";
+            return refuse(message, "fed_by, or the two radii with pressure");
+        }
+        Ok(Some(DrillingKeys {
+            feed: 0,
+            radii: None,
+            fed_by: Some(FedBy {
+                mains: mains
+                    .iter()
+                    .map(|n| usize::try_from(*n).unwrap_or(0))
+                    .collect(),
+                inlet_angle: self.number(INLET_ANGLE).ok(),
+                inlet_diameter: self.number(INLET_DIAMETER).ok(),
+            }),
+            place: self.error(FED_BY, ""),
+        }))
     }
 
     /// The feed but for its pressure.
@@ -204,8 +300,14 @@ impl GrooveCheck<'_, '_> {
     /// Pressure or pressure table, whichever is given.
     fn supply(&self) -> Result<Supply, Refused> {
         let error = match (self.is_given(PRESSURE), self.is_given(PRESSURE_FILE)) {
+            (false, false) if self.is_given(FED_BY) => {
+                return Ok(Supply::Constant(self.bearing.ambient_pressure));
+            }
+            (true, _) | (_, true) if self.is_given(FED_BY) => self
+                .error(FED_BY, "the supply pressure is given twice")
+                .allowing("fed_by, pressure or pressure_file"),
             (true, false) => return Ok(Supply::Constant(self.number(PRESSURE)?)),
-            (false, true) if self.checker.mode == Mode::LoadCycle => return self.table(),
+            (false, true) if self.checker.mode.is_cyclic() => return self.table(),
             (false, true) => self
                 .error(
                     PRESSURE_FILE,
@@ -234,8 +336,7 @@ impl GrooveCheck<'_, '_> {
 
     /// The pressure table beside the study.
     fn table(&self) -> Result<Supply, Refused> {
-        let period = self.checker.number("load_cycle.period");
-        let period = period.ok_or_else(Vec::new)?;
+        let period = self.checker.period().ok_or_else(Vec::new)?;
         let named_at = self.error(PRESSURE_FILE, "");
         let name = self.text(PRESSURE_FILE)?;
         let from = self.checker.named_table(&name, "pressure table", named_at);
@@ -244,12 +345,12 @@ impl GrooveCheck<'_, '_> {
         Ok(Supply::Table { table, from })
     }
 
-    /// What the drilling in the crank adds to the supply pressure, Pa.
-    fn head(&self, feed: &Feed) -> Result<f64, Refused> {
+    /// Radii of inlet and outlet of the drilling in the crank, m, if they are given.
+    fn radii(&self, feed: &Feed) -> Result<Option<[f64; 2]>, Refused> {
         let (inlet, outlet) = (INLET_RADIUS, OUTLET_RADIUS);
         let given = [inlet, outlet].map(|path| self.is_given(path));
         if given == [false, false] {
-            return Ok(0.0);
+            return Ok(None);
         }
         let [here, lacking] = if given[0] {
             [inlet, outlet]
@@ -270,7 +371,15 @@ impl GrooveCheck<'_, '_> {
                 .allowing("carried_by = \"journal\"");
             return Err(vec![error]);
         }
+        Ok(Some([self.number(inlet)?, self.number(outlet)?]))
+    }
+
+    /// What the drilling in the crank adds to the supply pressure, Pa; a machine adds it speed by speed.
+    fn head(&self, radii: Option<[f64; 2]>) -> Result<f64, Refused> {
         let checker = self.checker;
+        let Some([inlet, outlet]) = radii.filter(|_| !checker.mode.is_machine()) else {
+            return Ok(0.0);
+        };
         let density = match checker.value("oil.density") {
             Some(Value::Number(density)) => Some(density),
             _ => checker.number("oil.density.value"),
@@ -280,7 +389,6 @@ impl GrooveCheck<'_, '_> {
             _ => checker.number("operation.speed"),
         };
         let (density, speed) = density.zip(speed).ok_or_else(Vec::new)?;
-        let (inlet, outlet) = (self.number(inlet)?, self.number(outlet)?);
         Ok(drilling_head(density, speed, inlet, outlet))
     }
 
@@ -297,7 +405,7 @@ impl GrooveCheck<'_, '_> {
                     feed: 0,
                     points: table.points.clone(),
                 };
-                let period = self.checker.number("load_cycle.period");
+                let period = self.checker.period();
                 (
                     PRESSURE_FILE,
                     lowest.fold(f64::INFINITY, f64::min),
@@ -423,7 +531,7 @@ impl GrooveCheck<'_, '_> {
     fn turning(&self, feed: &Feed) -> Option<InputError> {
         let is_turning = feed.carried_by == Carrier::Journal
             && !matches!(feed.shape, FeedShape::Circumferential { .. })
-            && self.checker.mode != Mode::LoadCycle
+            && !self.checker.mode.is_cyclic()
             && self.checker.number("operation.speed") != Some(0.0);
         is_turning.then(|| {
             let message = "the groove turns with the journal; the steady film is that of the \

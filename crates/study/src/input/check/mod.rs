@@ -1,10 +1,18 @@
 //! From values to a study: what is missing, what is not used, and what no single key can tell.
 
 mod bearing;
+mod combustion;
+mod crankshaft;
 mod duty;
+mod engine;
+mod gas;
 mod grooves;
+mod machine;
+mod machine_bearings;
+mod shaft;
 mod shapes;
 mod sweep;
+mod torsion;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};
@@ -14,7 +22,8 @@ use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
     Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
-use super::values::{Value, default_value};
+use super::values::{Value, default_value, not_built};
+use grooves::DrillingKeys;
 use sommerfeld_bearing::PressureCycle;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -39,10 +48,11 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         table_bytes: Vec::new(),
         files: vec![PathBuf::from(file)],
         feed_cycles: Vec::new(),
+        drillings: Vec::new(),
         directory,
     };
-    checker.report_missing();
-    checker.report_unused();
+    checker.report_missing("");
+    checker.report_unused("");
     if mode == Mode::Sweep {
         return checker.sweep();
     }
@@ -97,6 +107,8 @@ fn mode(reading: &Reading<'_>) -> Option<Mode> {
         "equilibrium" => Some(Mode::Equilibrium),
         "coefficients" => Some(Mode::Coefficients),
         "load-cycle" => Some(Mode::LoadCycle),
+        "engine" => Some(Mode::Engine),
+        "shaft" => Some(Mode::Shaft),
         "sweep" => Some(Mode::Sweep),
         _ => None,
     }
@@ -108,6 +120,8 @@ fn analysis(mode: Mode) -> Analysis {
         Mode::Equilibrium => Analysis::Equilibrium,
         Mode::Coefficients => Analysis::Coefficients,
         Mode::LoadCycle => Analysis::LoadCycle,
+        Mode::Engine => Analysis::Engine,
+        Mode::Shaft => Analysis::Shaft,
         Mode::Sweep => Analysis::Sweep,
     }
 }
@@ -127,7 +141,9 @@ fn report_missing_analysis(reading: &mut Reading<'_>) {
 /// The error for a key that is not there, at the header of its section.
 fn missing(reading: &Reading<'_>, key: &Key, header: Option<&Range<usize>>) -> InputError {
     let (what, example) = match (key.kind, key.example()) {
-        (Kind::Table | Kind::TableList, _) => ("section", format!("add [{}]", key.path)),
+        (Kind::Table | Kind::TableList | Kind::TableOrList, _) => {
+            ("section", format!("add [{}]", key.path))
+        }
         (_, Some(example)) => ("key", format!("for example {} = {example}", key.name())),
         _ => ("key", format!("{} Typical: {}", key.meaning, key.typical)),
     };
@@ -153,6 +169,8 @@ struct Checker<'t> {
     files: Vec<PathBuf>,
     /// Supply pressures over the crank angle.
     feed_cycles: Vec<PressureCycle>,
+    /// Drillings in the crank of a machine, as given.
+    drillings: Vec<DrillingKeys>,
     /// Where the files of the study lie.
     directory: &'t Path,
 }
@@ -211,9 +229,10 @@ impl Checker<'_> {
         })
     }
 
-    /// Reports keys that this study needs and the file does not give.
-    fn report_missing(&mut self) {
-        for key in KEYS {
+    /// Reports keys that this study needs and the file does not give: those whose path starts with
+    /// `prefix`, and those of every list.
+    fn report_missing(&mut self, prefix: &str) {
+        for key in KEYS.iter().filter(|key| key.path.starts_with(prefix)) {
             let section = key.section();
             let is_due = key.presence == Presence::Required
                 && key.used_by.contains(&self.mode)
@@ -250,11 +269,14 @@ impl Checker<'_> {
     }
 
     /// Keys that this analysis does not read: a warning, so that one file can serve several
-    /// analyses; an error where a dimensional value would mean nothing.
-    fn report_unused(&mut self) {
+    /// analyses; an error where a dimensional value would mean nothing. Of keys whose path starts with
+    /// `prefix`.
+    fn report_unused(&mut self, prefix: &str) {
         let mut unused: Vec<(&Key, Range<usize>)> = Vec::new();
         for (path, entry) in &self.reading.entries {
-            let Some(key) = find(path) else { continue };
+            let Some(key) = find(path).filter(|key| key.path.starts_with(prefix)) else {
+                continue;
+            };
             let section_is_used =
                 find(key.section()).is_none_or(|section| section.used_by.contains(&self.mode));
             if !key.used_by.contains(&self.mode) && section_is_used {
@@ -276,6 +298,12 @@ impl Checker<'_> {
             } else if key.path == "operation.dimensionless" {
                 self.errors
                     .push(note.hinting("only the analysis \"film\" can be dimensionless"));
+            } else if self.mode.is_machine() && key.path == "film.relative_error_target" {
+                let what = format!("an error target of the analysis {}", self.mode.name());
+                let error = not_built(note, &what);
+                self.errors.push(
+                    error.hinting("take it out; a finer film.grid shows what the grid costs"),
+                );
             } else {
                 self.warnings.push(note);
             }

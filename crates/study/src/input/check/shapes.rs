@@ -259,7 +259,7 @@ impl Checker<'_> {
     }
 
     /// An error at the header of a section.
-    fn section_error(&self, section: &str, message: impl Into<String>) -> InputError {
+    pub(super) fn section_error(&self, section: &str, message: impl Into<String>) -> InputError {
         match self.entry(section) {
             Some(entry) => self.reading.error(&entry.key_span, message),
             None => InputError::new(self.reading.file, message),

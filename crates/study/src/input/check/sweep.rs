@@ -6,7 +6,7 @@ use crate::input::files::{STUDY_CAP, read_text};
 use crate::input::read::MOST_ERRORS;
 use crate::input::study::{Analysis, FilmSettings, Rotor, Study, Subject, input_hash};
 use crate::input::sweep::{Keep, SweepMode, SweepPlan};
-use crate::input::values::Value;
+use crate::input::values::{Value, not_built};
 use crate::input::vary::{MOST_CASES, Vary};
 use rayon::prelude::*;
 use std::path::Path;
@@ -94,6 +94,14 @@ impl Checker<'_> {
                 let refused = self.error_at("sweep.base", "the base study is a sweep itself");
                 self.errors.push(refused.hinting(
                     "a sweep of a sweep is not possible: vary the keys of both in one sweep",
+                ));
+                None
+            }
+            Ok(table) if is_machine(&table) => {
+                let message = "a sweep of an engine or shaft";
+                let refused = not_built(self.error_at("sweep.base", ""), message);
+                self.errors.push(refused.hinting(
+                    "an engine runs a list of speeds in one study: speed = [\"1000 rpm\", \"2000 rpm\"]",
                 ));
                 None
             }
@@ -225,12 +233,25 @@ impl Checker<'_> {
     }
 }
 
+/// The study is one of several bearings.
+fn is_machine(study: &toml::Table) -> bool {
+    let analysis = study.get("analysis").and_then(toml::Value::as_str);
+    matches!(analysis, Some("engine" | "shaft"))
+}
+
 /// The study of a case.
 fn check_case(plan: &SweepPlan, index: usize) -> Result<Study, InputErrors> {
     let text = plan
         .case_text(index)
         .map_err(|(key, why)| InputError::new(&plan.base_file, why).of_key(&key))?;
-    plan.study_of(&text)
+    let study = plan.study_of(&text)?;
+    match study.subject {
+        Subject::Machine(_) => {
+            let place = InputError::new(&plan.base_file, "").of_key("analysis");
+            Err(not_built(place, "a sweep of an engine or shaft").into())
+        }
+        _ => Ok(study),
+    }
 }
 
 /// Identifies the cases of a sweep and what they leave behind: equal hashes are the same results.

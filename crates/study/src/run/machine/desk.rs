@@ -1,0 +1,167 @@
+//! The calling thread of a machine: keeps what units found and shows how far they are.
+
+use super::units::UnitFound;
+use super::{ProgressCallback, RunError, Work};
+use crate::ledger::{Entry, Ledger};
+use crate::output::OutputError;
+use crate::progress::ProgressEvent;
+use crate::results::status_name;
+use crate::run::crew::{Desk, News};
+use flate2::Compression;
+use flate2::read::ZlibDecoder;
+use flate2::write::ZlibEncoder;
+use sommerfeld_film::Outcome;
+use std::collections::{BTreeMap, HashMap};
+use std::ops::ControlFlow;
+
+/// What a unit found and, where there is a ledger, its form there.
+pub(super) type Finished = (UnitFound, Option<Vec<u8>>);
+
+/// Writes the ledger, shows the progress, stops the threads.
+pub(super) struct UnitDesk<'a> {
+    work: &'a Work<'a>,
+    ledger: Option<&'a mut Ledger>,
+    found: &'a mut BTreeMap<usize, UnitFound>,
+    /// Shares of the units at work.
+    shares: HashMap<usize, f64>,
+    /// Orbits that an earlier run has done.
+    found_done: usize,
+    progress: &'a mut ProgressCallback<'a>,
+}
+
+impl<'a> UnitDesk<'a> {
+    pub(super) fn new(
+        work: &'a Work<'a>,
+        ledger: Option<&'a mut Ledger>,
+        found: &'a mut BTreeMap<usize, UnitFound>,
+        progress: &'a mut ProgressCallback<'a>,
+    ) -> Self {
+        let mut desk = Self {
+            work,
+            ledger,
+            found,
+            shares: HashMap::new(),
+            found_done: 0,
+            progress,
+        };
+        desk.found_done = desk.done();
+        desk
+    }
+
+    /// Orbits that a unit stands for.
+    fn orbits(&self, unit: usize) -> usize {
+        let unit = self.work.units.get(unit);
+        unit.map_or(0, |unit| unit.task.bearings().len())
+    }
+
+    fn done(&self) -> usize {
+        self.found.keys().map(|unit| self.orbits(*unit)).sum()
+    }
+
+    fn tell(&mut self, message: Option<String>) -> ControlFlow<()> {
+        let total: usize = (0..self.work.units.len()).map(|at| self.orbits(at)).sum();
+        let done = self.done();
+        let shares = self.shares.iter();
+        let at_work: f64 = shares
+            .map(|(unit, share)| share * self.orbits(*unit) as f64)
+            .sum();
+        // The share of what this run has to do: the time left follows from it.
+        let mine = (total - self.found_done).max(1) as f64;
+        let share = ((done - self.found_done) as f64 + at_work) / mine;
+        let label = match self.work.speeds.len() {
+            1 => format!("{done} of {total} orbits"),
+            speeds => format!("{done} of {total} orbits at {speeds} speeds"),
+        };
+        (self.progress)(ProgressEvent {
+            message,
+            ..ProgressEvent::new(label, share)
+        })
+    }
+
+    /// What a finished unit did not solve.
+    fn failures(&self, unit: usize, found: &UnitFound) -> Vec<String> {
+        let speed = self.work.units.get(unit).map_or(0, |unit| unit.speed);
+        let failed = found.iter();
+        let failed = failed.filter(|found| found.orbit.outcome != Outcome::Converged);
+        failed
+            .map(|found| {
+                let status = status_name(found.orbit.outcome);
+                format!("{}: {status}", self.work.place(speed, found.bearing))
+            })
+            .collect()
+    }
+}
+
+impl Desk<Finished> for UnitDesk<'_> {
+    fn take(&mut self, news: Vec<News<Finished>>) -> Result<ControlFlow<()>, RunError> {
+        let mut entries = Vec::new();
+        let mut finished = Vec::new();
+        for news in news {
+            match news {
+                News::Started(unit) => {
+                    self.shares.insert(unit, 0.0);
+                    entries.push(Entry::Started(unit + 1));
+                }
+                News::Share(unit, share) => {
+                    self.shares.insert(unit, share);
+                }
+                News::Abandoned(unit) => {
+                    self.shares.remove(&unit);
+                }
+                News::Finished(unit, (found, content)) => {
+                    self.shares.remove(&unit);
+                    entries.extend(content.map(|content| Entry::Found(unit + 1, content)));
+                    finished.push((unit, found));
+                }
+            }
+        }
+        if let Some(ledger) = &mut self.ledger
+            && !entries.is_empty()
+        {
+            ledger.write(&entries)?;
+        }
+        let mut answer = ControlFlow::Continue(());
+        for (unit, found) in finished {
+            let failures = self.failures(unit, &found);
+            self.found.insert(unit, found);
+            for failure in failures {
+                if self.tell(Some(failure)).is_break() {
+                    answer = ControlFlow::Break(());
+                }
+            }
+        }
+        Ok(answer)
+    }
+
+    fn show(&mut self) -> ControlFlow<()> {
+        self.tell(None)
+    }
+}
+
+/// What a unit found as it stands in the ledger: CBOR (RFC 8949), which holds every number as it is,
+/// deflated.
+pub(super) fn packed(found: &UnitFound) -> Result<Vec<u8>, RunError> {
+    let failed = |reason: String| {
+        RunError::Output(OutputError::Content {
+            file: crate::ledger::FILE_NAME,
+            reason,
+        })
+    };
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
+    ciborium::into_writer(found, &mut encoder).map_err(|error| failed(error.to_string()))?;
+    encoder.finish().map_err(|error| failed(error.to_string()))
+}
+
+/// The units that a ledger holds, of a run of so many.
+pub(super) fn read(ledger: &Ledger, units: usize) -> Result<BTreeMap<usize, UnitFound>, RunError> {
+    let findings = ledger.findings()?.into_iter();
+    let found = findings.map(|(number, content)| {
+        let unit = number.checked_sub(1).filter(|unit| *unit < units);
+        let unit = unit.ok_or_else(|| ledger.damaged("it holds a calculation of another run"))?;
+        let found = ciborium::from_reader(ZlibDecoder::new(content.as_slice()));
+        let found =
+            found.map_err(|error| ledger.damaged(&format!("calculation {number}: {error}")))?;
+        Ok((unit, found))
+    });
+    found.collect()
+}

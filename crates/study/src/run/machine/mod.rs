@@ -1,0 +1,225 @@
+//! An engine or shaft: the loads of its bearings at every speed, and the orbits that answer them.
+//!
+//! The loads of all speeds come first, they cost little. The orbits are units of work ([`units`]), each
+//! sequential and independent of the others. In a directory of results what a unit finds is kept in the
+//! ledger until the results are written: a run that ends in any way is taken up by the same command.
+
+mod assemble;
+mod coupled;
+mod desk;
+mod pin;
+mod speeds;
+mod units;
+
+use super::crew::work_through;
+use super::{
+    ProgressCallback, RunError, RunOptions, RunSummary, finish_results, header, viscosity_law,
+};
+use crate::input::{FilmSettings, Machine, MachinePlan, Study};
+use crate::ledger::{Ledger, LedgerStudy};
+use crate::models::{self, Model};
+use crate::output::{check_directory, prepare_directory, write_all};
+use crate::results::machine::speed_words;
+use crate::results::{Body, Results};
+use assemble::assemble;
+use desk::{UnitDesk, read};
+use serde_json::json;
+use sommerfeld_engine::Mains;
+use speeds::SpeedLoads;
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::time::Instant;
+use units::{Unit, UnitFound, solve_unit, units};
+
+/// What all units share: the machine, its loads at every speed, and the list of the units.
+struct Work<'a> {
+    plan: &'a MachinePlan,
+    film: &'a FilmSettings,
+    speeds: Vec<SpeedLoads>,
+    units: Vec<Unit>,
+}
+
+impl<'a> Work<'a> {
+    fn new(plan: &'a MachinePlan, film: &'a FilmSettings) -> Result<Self, RunError> {
+        let speeds = plan.speeds.iter().map(|speed| SpeedLoads::of(plan, *speed));
+        Ok(Self {
+            plan,
+            film,
+            speeds: speeds.collect::<Result<_, _>>()?,
+            units: units(plan),
+        })
+    }
+
+    /// A bearing at a speed, by their indices, for a reader.
+    fn place(&self, speed: usize, bearing: usize) -> String {
+        let speed = self.plan.speeds.get(speed).copied().unwrap_or(f64::NAN);
+        let bearing = self.plan.bearings.get(bearing);
+        let name = bearing.map_or("a bearing", |bearing| bearing.name.as_str());
+        format!("{name} at {}", speed_words(speed))
+    }
+}
+
+/// Runs the orbits that the directory does not hold yet, and writes the results of all.
+pub(super) fn run_machine(
+    study: &Study,
+    plan: &MachinePlan,
+    directory: &Path,
+    options: RunOptions,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<RunSummary, RunError> {
+    let start = Instant::now();
+    check_directory(directory, &study.files)?;
+    prepare_directory(directory)?;
+    let mut ledger = Ledger::open(directory, &ledger_study(study, plan))?;
+    let work = Work::new(plan, &study.film)?;
+    let mut found = read(&ledger, work.units.len())?;
+    if !found.is_empty() {
+        let told = format!(
+            "{} of {} calculations were found done in {}",
+            found.len(),
+            work.units.len(),
+            directory.display()
+        );
+        let event = crate::ProgressEvent {
+            message: Some(told),
+            ..crate::ProgressEvent::new("", 0.0)
+        };
+        // A stop is heard at the next sign of life.
+        let _ = progress(event);
+    }
+    compute(&work, options, Some(&mut ledger), &mut found, progress)?;
+    let is_complete = found.len() == work.units.len();
+    let mut results = results(study, work, found, options);
+    results.header.wall_time = start.elapsed().as_secs_f64();
+    let files = write_all(&results, directory)?;
+    if is_complete {
+        ledger.remove()?;
+    }
+    Ok(RunSummary { results, files })
+}
+
+/// Runs every orbit and writes nothing.
+pub(super) fn solve_machine(
+    study: &Study,
+    plan: &MachinePlan,
+    options: RunOptions,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Results, RunError> {
+    let start = Instant::now();
+    let work = Work::new(plan, &study.film)?;
+    let mut found = BTreeMap::new();
+    compute(&work, options, None, &mut found, progress)?;
+    let mut results = results(study, work, found, options);
+    results.header.wall_time = start.elapsed().as_secs_f64();
+    Ok(results)
+}
+
+/// Computes the units that are not found yet.
+fn compute(
+    work: &Work<'_>,
+    options: RunOptions,
+    ledger: Option<&mut Ledger>,
+    found: &mut BTreeMap<usize, UnitFound>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<(), RunError> {
+    let todo: Vec<usize> = (0..work.units.len())
+        .filter(|unit| !found.contains_key(unit))
+        .collect();
+    let is_kept = ledger.is_some();
+    let mut desk = UnitDesk::new(work, ledger, found, progress);
+    let solve = |unit: usize, progress: &mut ProgressCallback<'_>| {
+        let found = solve_unit(work, &work.units[unit], progress)?;
+        let content = is_kept.then(|| desk::packed(&found)).transpose()?;
+        Ok((found, content))
+    };
+    work_through(&todo, options.threads, &solve, &mut desk)
+}
+
+fn results(
+    study: &Study,
+    work: Work<'_>,
+    found: BTreeMap<usize, UnitFound>,
+    options: RunOptions,
+) -> Results {
+    let mut header = header(study);
+    let machine = assemble(work, found, &mut header);
+    let mut results = Results {
+        header,
+        body: Body::Machine(Box::new(machine)),
+    };
+    finish_results(study, &mut results);
+    if options.verify || study.film.relative_error_target.is_some() {
+        results.header.messages.push(
+            "no error bars: they are not there for all bearings of a machine at once; run the load \
+             file of a bearing as a load-cycle study for those of its orbit"
+                .to_owned(),
+        );
+    }
+    results
+}
+
+/// The machine as its ledger knows it.
+fn ledger_study(study: &Study, plan: &MachinePlan) -> LedgerStudy {
+    let inputs = |unit: &Unit| {
+        let names = unit.task.bearings().iter();
+        let names: Vec<&str> = names
+            .filter_map(|index| plan.bearings.get(*index))
+            .map(|bearing| bearing.name.as_str())
+            .collect();
+        let speed = plan.speeds.get(unit.speed);
+        json!({ "speed_rad_s": speed, "bearings": names }).to_string()
+    };
+    LedgerStudy {
+        title: if study.title.is_empty() {
+            study.file.clone()
+        } else {
+            format!("\"{}\"", study.title)
+        },
+        hash: study.input_hash.clone(),
+        parts: vec![("the study".to_owned(), study.text.clone())],
+        cases: units(plan)
+            .iter()
+            .map(|unit| (inputs(unit), study.input_hash.clone()))
+            .collect(),
+    }
+}
+
+/// How the loads of the mains are found, in words for a reader.
+fn load_model(plan: &MachinePlan) -> String {
+    match &plan.machine {
+        Machine::Engine(engine) => match engine.mains {
+            Mains::Determinate => {
+                "statically determinate: a hinge at each main, every bay a beam on two supports"
+            }
+            Mains::Elastic { .. } => {
+                "statically indeterminate: elastic crankshaft on elastic supports, through \
+                 clearances and films"
+            }
+        },
+        Machine::Shaft(shaft) if shaft.is_elastic => {
+            "statically indeterminate: elastic shaft on elastic supports, through clearances and films"
+        }
+        Machine::Shaft(_) => {
+            "statically determinate: a hinge at each bearing, every bay a beam on two supports"
+        }
+    }
+    .to_owned()
+}
+
+/// The models a machine uses.
+pub(super) fn models_of_machine(plan: &MachinePlan, settings: &FilmSettings) -> Vec<Model> {
+    let mut used = Vec::new();
+    if settings.model.is_field() {
+        for bearing in &plan.bearings {
+            let models = models::of_bearing(&bearing.bearing);
+            used.extend(
+                models
+                    .into_iter()
+                    .filter(|model| !used.contains(model))
+                    .collect::<Vec<_>>(),
+            );
+        }
+    }
+    used.extend(models::find("viscosity", viscosity_law(&plan.lubricant)));
+    used
+}
