@@ -14,7 +14,7 @@ use super::detail::Detail;
 use super::format::plain_number;
 use super::page::{Card, Check, FilmPart, Page, Section, Table, check_with_value};
 use crate::limits::Verdict;
-use crate::results::machine::{MachineResults, SpeedResults};
+use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{Header, rpm};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -83,8 +83,8 @@ pub(super) fn fill(page: &mut Page, header: &Header, machine: &MachineResults) -
             .iter()
             .map(|check| {
                 let mut words = check_with_value(check);
-                if let Some(worst) = machine.worst(check.limit.quantity) {
-                    words.text += &format!(": {}", place(machine, worst.speed, worst.bearing));
+                if let Some(at) = &check.at {
+                    words.text += &format!(": {at}");
                 }
                 words
             })
@@ -184,24 +184,13 @@ fn ids(machine: &MachineResults, taken: &str) -> Vec<String> {
 }
 
 /// What the header of one bearing at one speed would be: its own outcome and limits.
-fn own_header(header: &Header, bearing: &crate::results::machine::BearingResults) -> Header {
-    let status = bearing.cycle.orbit.outcome;
-    let limits = header
-        .limits
-        .iter()
-        .map(|check| {
-            let found = bearing.cycle.limited_value(check.limit.quantity);
-            let mut own = crate::limits::LimitCheck::new(check.limit.clone(), found);
-            if status != Outcome::Converged && own.verdict == Verdict::Ok {
-                own.verdict = Verdict::NotEvaluated;
-            }
-            own
-        })
-        .collect();
+fn own_header(header: &Header, bearing: &BearingResults) -> Header {
+    let limits = header.limits.iter();
+    let limits = limits.map(|check| bearing.check(&check.limit)).collect();
     Header {
         analysis: header.analysis.clone(),
         title: bearing.name.clone(),
-        status,
+        status: bearing.cycle.orbit.outcome,
         messages: Vec::new(),
         models: Vec::new(),
         wall_time: f64::NAN,
