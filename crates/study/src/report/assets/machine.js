@@ -167,13 +167,6 @@
 
     // ---- loads of all bearings side by side ----------------------------------------------------
 
-    const picture = (name, attributes, parent) => {
-      const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-      for (const [key, value] of Object.entries(attributes)) { element.setAttribute(key, value); }
-      parent?.append(element);
-      return element;
-    };
-
     function polars(element) {
       const cycles = view.data.cycles.map((cycle) => {
         if (!cycle) { return null; }
@@ -190,13 +183,13 @@
         name.textContent = names[number];
         link.append(name);
         if (!one) { return link; }
-        const box = picture("svg", { viewBox: "-100 -100 200 200", "aria-hidden": "true" }, link);
+        // Numbers and names of styles only: nothing here is text that a user wrote.
         const scaled = 98 / reach;
-        for (const radius of [ring, 0.5 * ring]) { picture("circle", { r: radius * scaled, class: "ring" }, box); }
-        picture("path", { d: "M-98 0H98M0-98V98", class: "ring" }, box);
+        const rings = [ring, 0.5 * ring].map((radius) => `<circle r="${radius * scaled}" class="ring"/>`).join("");
         const points = one.x.map((x, i) => (x === null ? null : `${(x * scaled).toFixed(1)} ${(-one.y[i] * scaled).toFixed(1)}`)).filter(Boolean);
-        picture("path", { d: `M${points.join("L")}`, class: `curve ${roleColours[machine.bearings[number].role]}` }, box);
-        if (one.thinnest >= 0) { picture("circle", { cx: one.x[one.thinnest] * scaled, cy: -one.y[one.thinnest] * scaled, r: 4.5, class: "thinnest" }, box); }
+        const curve = `<path d="M${points.join("L")}" class="curve ${roleColours[machine.bearings[number].role]}"/>`;
+        const dot = one.thinnest < 0 ? "" : `<circle cx="${one.x[one.thinnest] * scaled}" cy="${-one.y[one.thinnest] * scaled}" r="4.5" class="thinnest"/>`;
+        link.insertAdjacentHTML("beforeend", `<svg viewBox="-100 -100 200 200" aria-hidden="true">${rings}<path d="M-98 0H98M0-98V98" class="ring"/>${curve}${dot}</svg>`);
         return link;
       });
       const scale = document.createElement("p");
