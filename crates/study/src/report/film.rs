@@ -134,9 +134,12 @@ pub(super) fn part(
                 "Drag the slider, use the arrow keys, or press play: both maps and the body of \
                  the film show one of {frames} crank angles, the thinnest film among them."
             )
+        } else if detail.is_packed {
+            "The film at the crank angle where it is thinnest.".to_owned()
         } else {
             "The film of the state above.".to_owned()
         },
+        shows_crank: frames > 1 || detail.is_packed,
         solid: "The bearing seen from +z, +X to the right and +Y up, angles as on the rings. The \
                 height of the surface above the rings is the film pressure; the arrow is the load \
                 on the journal. Drag to turn, scroll to zoom; unrolled, the height stands over \
@@ -206,7 +209,7 @@ pub(super) fn film_data(
         "feeds": bearing.feeds.iter().map(|feed| outline(feed, bearing)).collect::<Value>(),
         "frames": instants.iter().map(|one| frame(one, bearing, units)).collect::<Value>(),
         "jumps": jumps(instants),
-        "pressure": packed(&pressure, Depth::Word),
+        "pressure": packed(&pressure, detail.frame_depth),
         "fraction": packed(&fraction, Depth::Byte),
         "thickness": packed(&thickness, Depth::Byte),
     })

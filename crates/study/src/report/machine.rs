@@ -14,7 +14,7 @@ use super::detail::Detail;
 use super::format::plain_number;
 use super::page::{Card, Check, FilmPart, Page, Section, Table, check_with_value};
 use crate::limits::Verdict;
-use crate::results::machine::{MachineResults, SpeedResults};
+use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{Header, rpm};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -75,7 +75,7 @@ pub(crate) struct AtSpeed {
 pub(super) fn fill(page: &mut Page, header: &Header, machine: &MachineResults) -> Value {
     let is_engine = machine.speeds.iter().any(|one| one.performance.is_some());
     let units = cycle::units(machine.all().map(|(_, _, bearing)| &bearing.cycle));
-    let detail = Detail::of_many(machine.all().count());
+    let detail = Detail::of_many(machine.all().count(), largest_grid(machine));
     say_what_failed(page, machine);
     if !header.limits.is_empty() {
         page.answer.checks = header
@@ -83,8 +83,8 @@ pub(super) fn fill(page: &mut Page, header: &Header, machine: &MachineResults) -
             .iter()
             .map(|check| {
                 let mut words = check_with_value(check);
-                if let Some(worst) = machine.worst(check.limit.quantity) {
-                    words.text += &format!(": {}", place(machine, worst.speed, worst.bearing));
+                if let Some(at) = &check.at {
+                    words.text += &format!(": {at}");
                 }
                 words
             })
@@ -93,8 +93,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, machine: &MachineResults) -
     let ids = ids(machine, if is_engine { "engine" } else { "shaft" });
     let mut pages = vec![overview::page(header, machine, &units, is_engine)];
     let mut cycles = Vec::new();
-    let count = machine.speeds.first().map_or(0, |one| one.bearings.len());
-    for (number, id) in ids.iter().enumerate().take(count) {
+    for (number, id) in ids.iter().enumerate() {
         let (page, data) = bearing::page(header, machine, number, id, &units, &detail);
         pages.push(page);
         cycles.push(data);
@@ -109,6 +108,19 @@ pub(super) fn fill(page: &mut Page, header: &Header, machine: &MachineResults) -
         pages,
     });
     data
+}
+
+/// Cells around and along of the finest films.
+fn largest_grid(machine: &MachineResults) -> [usize; 2] {
+    let films = machine
+        .all()
+        .filter_map(|(_, _, bearing)| Some(&bearing.cycle.fields.as_ref()?.worst.field));
+    films.fold([1, 1], |grid, film| {
+        [
+            grid[0].max(film.angles.len()),
+            grid[1].max(film.axial.len()),
+        ]
+    })
 }
 
 /// Names what did not converge.
@@ -150,7 +162,7 @@ fn speed_label(speed: &SpeedResults) -> String {
 /// that of the page of the machine.
 fn ids(machine: &MachineResults, taken: &str) -> Vec<String> {
     let mut ids: Vec<String> = vec![taken.to_owned()];
-    for bearing in machine.speeds.first().map_or(&[][..], |one| &one.bearings) {
+    for bearing in machine.fullest() {
         let plain: String = bearing
             .name
             .chars()
@@ -172,24 +184,13 @@ fn ids(machine: &MachineResults, taken: &str) -> Vec<String> {
 }
 
 /// What the header of one bearing at one speed would be: its own outcome and limits.
-fn own_header(header: &Header, bearing: &crate::results::machine::BearingResults) -> Header {
-    let status = bearing.cycle.orbit.outcome;
-    let limits = header
-        .limits
-        .iter()
-        .map(|check| {
-            let found = bearing.cycle.limited_value(check.limit.quantity);
-            let mut own = crate::limits::LimitCheck::new(check.limit.clone(), found);
-            if status != Outcome::Converged && own.verdict == Verdict::Ok {
-                own.verdict = Verdict::NotEvaluated;
-            }
-            own
-        })
-        .collect();
+fn own_header(header: &Header, bearing: &BearingResults) -> Header {
+    let limits = header.limits.iter();
+    let limits = limits.map(|check| bearing.check(&check.limit)).collect();
     Header {
         analysis: header.analysis.clone(),
         title: bearing.name.clone(),
-        status,
+        status: bearing.cycle.orbit.outcome,
         messages: Vec::new(),
         models: Vec::new(),
         wall_time: f64::NAN,

@@ -93,6 +93,8 @@ pub(crate) struct Section {
 pub(crate) struct FilmPart {
     /// Whether there is more than one instant to choose from.
     pub is_cycle: bool,
+    /// Whether the crank angle is read out.
+    pub shows_crank: bool,
     /// What to do with it.
     pub lead: String,
     /// Caption of the body of the film.

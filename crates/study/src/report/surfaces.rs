@@ -162,7 +162,7 @@ pub(super) fn hole_sentence(bearing: &Bearing, map: &AccumulatedMap, units: &Uni
 
 /// Maps of both surfaces side by side: kind of the drawing, title, what one sees. `hole` tells where
 /// an oil hole in the journal would be loaded least.
-pub(super) fn figures(hole: &str) -> Vec<Figure> {
+pub(super) fn figures(hole: &str, detail: &Detail) -> Vec<Figure> {
     let shell_frame = "Shell, angle from +X of the shell frame.";
     let journal_frame = "Journal, angle from +X of the journal.";
     let figure = |kind, title, caption: String| Figure {
@@ -171,7 +171,7 @@ pub(super) fn figures(hole: &str) -> Vec<Figure> {
         caption,
         size: "",
     };
-    vec![
+    let mut figures = vec![
         figure(
             "shell-pressure",
             "Largest pressure · shell",
@@ -215,7 +215,11 @@ pub(super) fn figures(hole: &str) -> Vec<Figure> {
             "Share of the cycle with a full film · journal",
             format!("{journal_frame} Dark where oil is short for most of the cycle."),
         ),
-    ]
+    ];
+    if detail.is_crowded {
+        figures.retain(|figure| !figure.kind.ends_with("share"));
+    }
+    figures
 }
 
 /// Both surfaces for the script.
@@ -270,7 +274,7 @@ fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units, detail: &Detail) 
         "pressure": field(&map.maximum_pressure, Keep::Largest, pressure),
         "amplitude": field(&map.pressure_amplitude, Keep::Largest, pressure),
         "thickness": field(&map.minimum_film_thickness, Keep::Smallest, MICROMETRE.factor),
-        "share": field(&map.full_film_share, Keep::Mean, 1.0),
+        "share": (!detail.is_crowded).then(|| field(&map.full_film_share, Keep::Mean, 1.0)),
         "feeds": feeds,
     })
 }

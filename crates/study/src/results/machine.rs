@@ -4,7 +4,7 @@
 //! seen are kept; frames over the cycle, at most [`MACHINE_FRAMES`], at the first speed only.
 
 use super::{CycleResults, rpm};
-use crate::limits::{Limit, LimitCheck, Quantity, Side, Verdict};
+use crate::limits::{Limit, LimitCheck, Verdict};
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{Performance, Role, TorsionResponse};
 use sommerfeld_film::Outcome;
@@ -147,17 +147,6 @@ impl BearingResults {
     }
 }
 
-/// Where in a machine a quantity is worst.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Worst {
-    /// Place among the speeds.
-    pub speed: usize,
-    /// Place among the bearings of that speed.
-    pub bearing: usize,
-    /// Its value, SI.
-    pub value: f64,
-}
-
 impl MachineResults {
     /// Every bearing at every speed, with the places of both.
     pub(crate) fn all(&self) -> impl Iterator<Item = (usize, usize, &BearingResults)> + Clone {
@@ -168,23 +157,13 @@ impl MachineResults {
         })
     }
 
-    /// The bearing and speed at which a quantity comes nearest to a limit or breaks it most; the first
-    /// of equals. `None` where no bearing has a finite number.
-    pub(crate) fn worst(&self, quantity: Quantity) -> Option<Worst> {
-        let found = self.all().filter_map(|(speed, bearing, results)| {
-            let value = results.cycle.limited_value(quantity)?;
-            value.is_finite().then_some(Worst {
-                speed,
-                bearing,
-                value,
-            })
-        });
-        found.reduce(|worst, next| {
-            let is_worse = match quantity.side() {
-                Side::AtLeast => next.value < worst.value,
-                Side::AtMost => next.value > worst.value,
-            };
-            if is_worse { next } else { worst }
-        })
+    /// The bearings as the speed with most of them has them: a speed that failed may have none.
+    pub(crate) fn fullest(&self) -> &[BearingResults] {
+        let most = self
+            .speeds
+            .iter()
+            .rev()
+            .max_by_key(|one| one.bearings.len());
+        most.map_or(&[], |speed| &speed.bearings)
     }
 }

@@ -3,9 +3,9 @@
 pub mod machine;
 
 use crate::cases::SweepResults;
-use crate::limits::{Limit, LimitCheck, Quantity};
+use crate::limits::{Limit, LimitCheck, Quantity, Side};
 use crate::models::Model;
-use machine::MachineResults;
+use machine::{BearingResults, MachineResults};
 use serde::{Deserialize, Serialize};
 use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
 use sommerfeld_film::{
@@ -290,7 +290,15 @@ impl Results {
                 Quantity::PowerLoss => Some(steady.summary.power_loss()),
             },
             Body::LoadCycle(cycle) => cycle.limited_value(quantity),
-            Body::Machine(machine) => machine.worst(quantity).map(|worst| worst.value),
+            Body::Machine(machine) => {
+                let sign = match quantity.side() {
+                    Side::AtLeast => -1.0,
+                    Side::AtMost => 1.0,
+                };
+                let value = |bearing: &BearingResults| bearing.cycle.limited_value(quantity);
+                let worst = machine.largest(|bearing| value(bearing).map(|found| sign * found));
+                worst.map(|(_, _, found)| sign * found)
+            }
             Body::Dimensionless(_) | Body::Sweep(_) => None,
         }
     }

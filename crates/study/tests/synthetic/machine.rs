@@ -284,6 +284,8 @@ fn torsion(rpm: f64) -> TorsionResponse {
             .map(|disc| twist(1.0 - 1.1 * disc as f64 / 7.0))
             .collect(),
         link_torques: (1..discs).map(|_| twist(3e5)).collect(),
+        disc_heat: vec![3.0; discs],
+        load_torque: 900.0,
         link_heat: (1..discs).map(|link| 12.0 * link as f64).collect(),
     }
 }

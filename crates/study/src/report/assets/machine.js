@@ -14,8 +14,8 @@
     const views = new Map();
 
     const overview = () => ({ machine, overview: { speed, go }, cycles: cycles.map((one) => one[speed]?.cycle),
-      charts: Object.assign({}, machine.charts, overall[speed].charts) });
-    const dataOf = (page) => (page === pages[0] ? overview() : cycles[pages.indexOf(page) - 1][speed]);
+      charts: Object.assign({}, machine.charts, overall[speed]?.charts) });
+    const dataOf = (page) => (page === pages[0] ? overview() : cycles[pages.indexOf(page) - 1][speed] ?? {});
 
     function leave(page) {
       const one = views.get(page);
@@ -76,7 +76,11 @@
     function follow() {
       const { element, page } = target();
       show(page, speed);
-      if (element && element !== page) { element.scrollIntoView(); } else if (element) { scrollTo({ top: 0, behavior: "instant" }); }
+      if (element && element !== page) { element.scrollIntoView(); } else if (element) {
+        // A new page starts at its top, and the row of pages stays where it is if it can.
+        const row = document.querySelector(".chooser");
+        scrollTo({ top: Math.min(scrollY, row.previousElementSibling.getBoundingClientRect().bottom + scrollY + 14), behavior: "instant" });
+      }
     }
 
     function go(bearing, at) {
@@ -118,9 +122,9 @@
     // Bearings as rows, speeds as columns, a number in each field.
     function heatMap(found, name, scale, reversed) {
       const rows = found.rows.map((row) => row.map((cell) => cell.value));
-      const text = found.rows.map((row) => row.map((cell) => cell.text.split(" ")[0]));
+      const text = found.rows.map((row) => row.map((cell) => cell.text.split(" ")[0] + (cell.bad ? " !" : "")));
       return { traces: [{ type: "heatmap", x: machine.speeds.map((_, i) => i), y: names, z: rows, text, texttemplate: "%{text}", textfont: { size: theme.size - 1 },
-        colorscale: scale, reversescale: reversed, xgap: 1, ygap: 1, customdata: found.rows.map((row) => row.map((cell, at) => [machine.speeds[at], cell.text])),
+        colorscale: scale, reversescale: reversed, xgap: 1, ygap: 1, customdata: found.rows.map((row) => row.map((cell, at) => [machine.speeds[at], cell.text + (cell.bad ? ", limit exceeded" : "")])),
         hovertemplate: "%{y} at %{customdata[0]}<br>%{customdata[1]}<extra></extra>", colorbar: view.colourBar(withUnit(name, found.unit)) }],
       layout: layout(axis("Speed [rpm]", { tickvals: machine.speeds.map((_, i) => i), ticktext: machine.speeds.map((label) => label.replace(" rpm", "")), showgrid: false }),
         axis("", { autorange: "reversed", showgrid: false, ticks: "", type: "category", dtick: 1 }), { hovermode: "closest", margin: { l: 70, r: 10, t: 10, b: 46 } }),
@@ -131,10 +135,10 @@
     function bars(found, name) {
       const cells = found.rows.map((row) => row[overview.speed]);
       const limits = view.limitLines(found.limits ?? []);
-      return { traces: [{ type: "bar", x: names, y: cells.map((cell) => cell.value), customdata: cells.map((cell) => cell.text), hovertemplate: "%{x}: %{customdata}<extra></extra>",
+      return { traces: [{ type: "bar", x: names, y: cells.map((cell) => cell?.value), customdata: cells.map((cell) => cell.text), hovertemplate: "%{x}: %{customdata}<extra></extra>",
         marker: { color: machine.bearings.map((one) => theme[roleColours[one.role]]) } }],
       layout: layout(axis("", { type: "category", tickangle: -60, ticks: "", dtick: 1 }), axis(withUnit(name, found.unit), { rangemode: "tozero" }),
-        { hovermode: "closest", bargap: 0.35, shapes: limits.shapes, annotations: limits.annotations, margin: { l: 58, r: 18, t: 22, b: 60 } }),
+        { hovermode: "closest", bargap: 0.35, shapes: limits.shapes, annotations: limits.annotations.map((one) => ({ ...one, bgcolor: theme.paper })), margin: { l: 58, r: 18, t: 22, b: 60 } }),
       open: (point) => overview.go(names.indexOf(point.x), overview.speed) };
     }
 
@@ -163,13 +167,6 @@
 
     // ---- loads of all bearings side by side ----------------------------------------------------
 
-    const picture = (name, attributes, parent) => {
-      const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-      for (const [key, value] of Object.entries(attributes)) { element.setAttribute(key, value); }
-      parent?.append(element);
-      return element;
-    };
-
     function polars(element) {
       const cycles = view.data.cycles.map((cycle) => {
         if (!cycle) { return null; }
@@ -186,13 +183,13 @@
         name.textContent = names[number];
         link.append(name);
         if (!one) { return link; }
-        const box = picture("svg", { viewBox: "-100 -100 200 200", "aria-hidden": "true" }, link);
+        // Numbers and names of styles only: nothing here is text that a user wrote.
         const scaled = 98 / reach;
-        for (const radius of [ring, 0.5 * ring]) { picture("circle", { r: radius * scaled, class: "ring" }, box); }
-        picture("path", { d: "M-98 0H98M0-98V98", class: "ring" }, box);
+        const rings = [ring, 0.5 * ring].map((radius) => `<circle r="${radius * scaled}" class="ring"/>`).join("");
         const points = one.x.map((x, i) => (x === null ? null : `${(x * scaled).toFixed(1)} ${(-one.y[i] * scaled).toFixed(1)}`)).filter(Boolean);
-        picture("path", { d: `M${points.join("L")}`, class: `curve ${roleColours[machine.bearings[number].role]}` }, box);
-        if (one.thinnest >= 0) { picture("circle", { cx: one.x[one.thinnest] * scaled, cy: -one.y[one.thinnest] * scaled, r: 4.5, class: "thinnest" }, box); }
+        const curve = `<path d="M${points.join("L")}" class="curve ${roleColours[machine.bearings[number].role]}"/>`;
+        const dot = one.thinnest < 0 ? "" : `<circle cx="${one.x[one.thinnest] * scaled}" cy="${-one.y[one.thinnest] * scaled}" r="4.5" class="thinnest"/>`;
+        link.insertAdjacentHTML("beforeend", `<svg viewBox="-100 -100 200 200" aria-hidden="true">${rings}<path d="M-98 0H98M0-98V98" class="ring"/>${curve}${dot}</svg>`);
         return link;
       });
       const scale = document.createElement("p");

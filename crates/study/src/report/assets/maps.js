@@ -53,6 +53,7 @@ globalThis.sommerfeld.parts.push((report) => {
   }));
   // Both surfaces carry one scale of colours, so that they compare at a glance.
   for (const [key, kind] of Object.entries(kinds)) {
+    if (!surfaces.shell[key]) { continue; }
     const [shell, journal] = [surfaces.shell, surfaces.journal].map((surface) => unpacked(surface[key]));
     const low = Math.min(report.smallest(shell), report.smallest(journal));
     const high = Math.max(report.largest(shell), report.largest(journal));

@@ -22,7 +22,7 @@
     if (!figure) { return null; }
     if (figure.nothing) { return empty(element, figure.nothing); }
     if (!element.data) { element.replaceChildren(); }
-    const named = Object.assign({}, config, { toImageButtonOptions: { format: "svg", filename: element.dataset.kind } });
+    const named = Object.assign({}, config, { staticPlot: isPrinting, toImageButtonOptions: { format: "svg", filename: element.dataset.kind } });
     // Paper does not tell its size by events: the size is that of the style sheet for print.
     const size = isPrinting ? { autosize: false, width: element.clientWidth, height: element.clientHeight } : { autosize: true };
     const drawn = Plotly.react(element, figure.traces, Object.assign(figure.layout, size), named);

@@ -7,8 +7,8 @@ use crate::report::cycle::{self, CyclePart};
 use crate::report::detail::Detail;
 use crate::report::figures::thinned;
 use crate::report::format::Units;
-use crate::report::page::{Figure, check_with_value, headline, subject};
-use crate::results::machine::{BearingResults, MachineResults};
+use crate::report::page::{Card, Figure, FilmPart, Section, check_with_value, headline, subject};
+use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{Header, magnitude};
 use serde_json::{Value, json};
 use sommerfeld_engine::Role;
@@ -23,57 +23,73 @@ pub(super) fn page(
     units: &Units,
     detail: &Detail,
 ) -> (MachinePage, Value) {
-    let found: Vec<&BearingResults> = machine
+    // A speed whose loads failed has no bearings: its place stays empty.
+    let found: Vec<Option<&BearingResults>> = machine
         .speeds
         .iter()
-        .filter_map(|speed| speed.bearings.get(number))
+        .map(|speed| speed.bearings.get(number))
         .collect();
-    let headers: Vec<Header> = found
-        .iter()
-        .map(|bearing| own_header(header, bearing))
-        .collect();
-    let mut parts: Vec<CyclePart> = found
-        .iter()
-        .zip(&headers)
-        .map(|(bearing, own)| with_determinate(bearing, own, units, detail))
-        .collect();
-    let data: Value = parts.iter_mut().map(|part| part.data.take()).collect();
-    let first = found.first().copied();
+    let mut data = Vec::new();
+    let mut at = Vec::new();
+    let mut headers = Vec::new();
     // All speeds share the places of the figures: those of the speed that fills most of them.
-    let fullest = (0..parts.len()).max_by_key(|&at| {
-        let figures = parts[at].sections.iter().map(|one| one.figures.len());
-        (figures.sum::<usize>(), std::cmp::Reverse(at))
-    });
-    let (film, sections) = fullest.map_or((None, Vec::new()), |at| {
-        let part = &mut parts[at];
-        (part.film.take(), std::mem::take(&mut part.sections))
-    });
-    let at = parts
-        .into_iter()
-        .zip(&headers)
-        .zip(&machine.speeds)
-        .map(|((part, own), speed)| AtSpeed {
+    let mut fullest: (usize, Option<FilmPart>, Vec<Section>) = (0, None, Vec::new());
+    for (bearing, speed) in found.iter().zip(&machine.speeds) {
+        let Some(bearing) = bearing else {
+            data.push(Value::Null);
+            at.push(nothing_at(speed));
+            continue;
+        };
+        let own = own_header(header, bearing);
+        let part = with_determinate(bearing, &own, units, detail);
+        let figures = part.sections.iter().map(|one| one.figures.len()).sum();
+        if figures > fullest.0 {
+            fullest = (figures, part.film, part.sections);
+        }
+        data.push(part.data);
+        at.push(AtSpeed {
             speed: speed_label(speed),
             status: headline(own.status),
             good: own.status == Outcome::Converged,
             checks: own.limits.iter().map(check_with_value).collect(),
-            cards: part.cards,
+            cards: without_curves(part.cards, detail),
             note: part.hole,
             tables: part.tables,
-        })
-        .collect();
+        });
+        headers.push(own);
+    }
+    let first = found.into_iter().flatten().next();
+    let of_first = |text: &dyn Fn(&BearingResults) -> String| first.map_or_else(String::new, text);
     let page = MachinePage {
         id: id.to_owned(),
-        name: first.map_or_else(String::new, |one| one.name.clone()),
-        heading: first.map_or_else(String::new, |one| one.name.clone()),
-        subject: first.map_or_else(String::new, |one| subject(&one.cycle.bearing)),
-        lead: first.map_or_else(String::new, |one| lead(machine, one)),
+        name: of_first(&|one| one.name.clone()),
+        heading: of_first(&|one| one.name.clone()),
+        subject: of_first(&|one| subject(&one.cycle.bearing)),
+        lead: of_first(&|one| lead(machine, one)),
         flag: flag(&headers),
-        film,
-        sections,
+        film: fullest.1,
+        sections: fullest.2,
         at,
     };
-    (page, data)
+    (page, Value::Array(data))
+}
+
+/// What a page tells of a speed at which there are no results of its bearing.
+fn nothing_at(speed: &SpeedResults) -> AtSpeed {
+    AtSpeed {
+        speed: speed_label(speed),
+        status: headline(speed.outcome),
+        note: "No results of this bearing at this speed.".to_owned(),
+        ..AtSpeed::default()
+    }
+}
+
+/// Cards without their small curves where so many of them would take the room of figures.
+fn without_curves(mut cards: Vec<Card>, detail: &Detail) -> Vec<Card> {
+    if detail.is_crowded {
+        cards.iter_mut().for_each(|card| card.spark = None);
+    }
+    cards
 }
 
 /// Which body and frame the loads of a bearing belong to.

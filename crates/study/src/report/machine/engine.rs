@@ -11,8 +11,8 @@ use crate::results::{degrees, magnitude};
 use serde_json::{Value, json};
 use sommerfeld_engine::{Harmonic, Performance};
 
-/// Points of a curve of the engine.
-const POINTS: usize = 720;
+/// Points of all curves of one kind over the crank angle, over all speeds.
+const POINTS: usize = 2880;
 /// Orders above this one are not drawn.
 const HIGHEST_ORDER: f64 = 12.0;
 /// Orders smaller than this share of the largest bearing load (a moment: at an arm of 1 m) are
@@ -144,7 +144,8 @@ pub(super) fn speeds(machine: &MachineResults, bearing_units: &Units) -> Value {
     let speeds = machine.speeds.iter().map(|speed| {
         let mut charts = json!({});
         if let Some(performance) = &speed.performance {
-            over_the_cycle(&mut charts, performance, &units, bearing_units);
+            let points = (POINTS / machine.speeds.len()).clamp(180, 720);
+            over_the_cycle(&mut charts, performance, [&units, bearing_units], points);
             by_order(&mut charts, performance, &units, BALANCED * load);
         }
         if let Some(response) = &speed.torsion {
@@ -163,7 +164,7 @@ pub(super) fn chart(x_title: String, y_title: String, series: Vec<Series>) -> Va
         y_range: None,
         series,
     }
-    .data(&Detail::of_many(1))
+    .data(&Detail::of_many(1, [1, 1]))
 }
 
 /// The title of an axis with its unit.
@@ -171,22 +172,29 @@ pub(super) fn title(name: &str, unit: Unit) -> String {
     format!("{name} [{}]", unit.symbol)
 }
 
+/// Curves over one cycle, closed, in the units of the engine and of its bearings.
 fn over_the_cycle(
     charts: &mut Value,
     performance: &Performance,
-    units: &Units,
-    bearing_units: &Units,
+    [units, bearing_units]: [&Units; 2],
+    points: usize,
 ) {
     let count = performance.crank_angles.len();
-    let kept = thinned(count, POINTS);
+    let kept = thinned(count, points);
     let pick = |values: &[f64], factor: f64| -> Vec<f64> {
-        let at = |i: &usize| values.get(*i).map_or(f64::NAN, |value| value * factor);
-        kept.iter().map(at).collect()
+        let closed = kept.iter().chain([&0]);
+        closed
+            .map(|at| values.get(*at).map_or(f64::NAN, |value| value * factor))
+            .collect()
     };
-    let crank: Vec<f64> = kept
+    let mut crank: Vec<f64> = kept
         .iter()
         .map(|&i| degrees(performance.crank_angles[i]))
         .collect();
+    // The table ends one step before the cycle does.
+    if let (Some(last), true) = (crank.last(), count > 1) {
+        crank.push((last * count as f64 / (count - 1) as f64 * 1e9).round() / 1e9);
+    }
     let series = |name: &str, y: Vec<f64>| Series {
         name: name.to_owned(),
         x: Some(crank.clone()),
@@ -202,17 +210,13 @@ fn over_the_cycle(
         vec![series("cylinder 1", pressure.clone())],
     );
     if performance.displaced_volume.len() == count {
-        let closed = |mut values: Vec<f64>| {
-            values.extend(values.first().copied());
-            values
-        };
         let volume = pick(&performance.displaced_volume, CUBIC_CENTIMETRE.factor);
         charts["pressure-volume"] = chart(
             title("Displaced volume", CUBIC_CENTIMETRE),
             title("Absolute pressure", units.pressure),
             vec![Series {
-                x: Some(closed(volume)),
-                ..series("cylinder 1", closed(pressure))
+                x: Some(volume),
+                ..series("cylinder 1", pressure)
             }],
         );
     }

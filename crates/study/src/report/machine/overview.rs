@@ -7,11 +7,10 @@ use super::{AtSpeed, MachinePage, largest, own_header, speed_label, torsion};
 use crate::limits::{Quantity, Verdict};
 use crate::report::chart::{Mark, Series};
 use crate::report::cycle::side_flow;
-use crate::report::film::in_film;
-use crate::report::format::{MICROMETRE, Unit, Units, angle};
+use crate::report::format::{MICROMETRE, Unit, Units, angle, plain_number};
 use crate::report::page::{Card, Cell, Figure, Section, Table, badge, checks, exact, headline};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
-use crate::results::{Header, degrees, rpm};
+use crate::results::{Header, degrees, place, rpm};
 use serde_json::{Value, json};
 use sommerfeld_film::Outcome;
 
@@ -71,7 +70,7 @@ fn lead(machine: &MachineResults, is_engine: bool) -> String {
 fn bearings(machine: &MachineResults) -> Section {
     let many = machine.speeds.len() > 1;
     let over = if many {
-        "Every bearing at every speed; a click opens the bearing at that speed."
+        "Every bearing at every speed; an exclamation mark: a limit is exceeded. A click opens the bearing at that speed."
     } else {
         "Every bearing; a click opens it."
     };
@@ -321,8 +320,9 @@ fn bearing_table(header: &Header, speed: &SpeedResults, units: &Units) -> Table 
                 Cell::text(bearing.name.clone()),
                 number(Quantity::MinimumFilmThickness, MICROMETRE),
                 crank(thinnest.map(|p| p.crank_angle)),
-                Cell::text(thinnest.map_or_else(String::new, |p| {
-                    in_film(&p.summary.minimum_film_thickness, cycle.bearing.width)
+                Cell::number(thinnest.map_or_else(String::new, |p| {
+                    let (around, along) = place(&p.summary.minimum_film_thickness);
+                    format!("{}, {} mm", angle(around), plain_number(along))
                 })),
                 number(Quantity::PeakFilmPressure, units.pressure),
                 crank(highest.map(|p| p.crank_angle)),
@@ -336,7 +336,7 @@ fn bearing_table(header: &Header, speed: &SpeedResults, units: &Units) -> Table 
         .collect();
     let sums = |value: f64, unit: Unit| Cell::number(unit.show(value));
     let mut sum = vec![Cell::default(); 11];
-    sum[0] = Cell::text("All bearings");
+    sum[0] = Cell::text("All");
     let friction = |one: &BearingResults| one.cycle.mean(|p| p.summary.friction_power);
     sum[7] = sums(total(speed, friction), units.power);
     sum[8] = sums(total(speed, mean_loss), units.power);
@@ -345,7 +345,7 @@ fn bearing_table(header: &Header, speed: &SpeedResults, units: &Units) -> Table 
     rows.push(sum);
     Table {
         title: "Every bearing",
-        note: "Power and flow: means over the cycle; power loss is friction and squeeze together. \
+        note: "Where: bearing angle, axial position from the mid-plane. Power and flow: means over the cycle; power loss is friction and squeeze together. \
                Specific load: largest load over width times diameter. A colour and a word tell \
                whether a limit of the study is kept."
             .to_owned(),
@@ -375,7 +375,7 @@ pub(super) fn data(
     ids: &[String],
     is_engine: bool,
 ) -> Value {
-    let bearings = machine.speeds.first().map_or(&[][..], |one| &one.bearings);
+    let bearings = machine.fullest();
     let named: Value = bearings
         .iter()
         .zip(ids)
@@ -399,6 +399,27 @@ pub(super) fn data(
             one.cycle.limited_value(quantity).unwrap_or(f64::NAN)
         });
         found["limits"] = crate::report::figures::limits(header, quantity, unit);
+        for (number, row) in found["rows"]
+            .as_array_mut()
+            .into_iter()
+            .flatten()
+            .enumerate()
+        {
+            let cells = row.as_array_mut().into_iter().flatten();
+            for (cell, speed) in cells.zip(&machine.speeds) {
+                let own = speed
+                    .bearings
+                    .get(number)
+                    .map(|one| own_header(header, one));
+                let is_bad = own.is_some_and(|own| {
+                    let mut limits = own.limits.iter();
+                    limits.any(|check| {
+                        check.limit.quantity == quantity && check.verdict == Verdict::Exceeded
+                    })
+                });
+                cell["bad"] = json!(is_bad);
+            }
+        }
         found
     };
     let mut charts = json!({});

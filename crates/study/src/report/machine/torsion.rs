@@ -197,9 +197,13 @@ pub(super) fn tables(speed: &SpeedResults) -> Vec<Table> {
     vec![frequencies, links]
 }
 
-/// Largest magnitude of a twist or torque over one cycle.
+/// Largest magnitude of a twist or torque over one cycle without its mean, which is order 0.
 fn peak(twist: &Twist, speed: &SpeedResults) -> f64 {
     let periods = speed.bearings.iter().map(|bearing| bearing.load.period);
     let period = periods.fold(0.0, f64::max);
-    largest((0..POINTS).map(|i| twist.at(period * i as f64 / POINTS as f64)[0]))
+    let alternating = |angle: f64| -> f64 {
+        let orders = twist.harmonics.iter().filter(|one| one.order > 0.0);
+        orders.map(|one| one.at(angle)[0]).sum()
+    };
+    largest((0..POINTS).map(|i| alternating(period * i as f64 / POINTS as f64)))
 }
