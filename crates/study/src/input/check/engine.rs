@@ -8,7 +8,6 @@ use super::{as_number, value_in};
 use crate::input::error::InputError;
 use crate::input::machine::{EnginePlan, Machine};
 use crate::input::values::Value;
-use sommerfeld_bearing::PressureCycle;
 use sommerfeld_engine::{
     CrankTrain, Cylinder, EngineLayout, LayoutError, LayoutKind, LayoutPlan, PinFit, Rod, Role,
     Strokes, Throw, Unbalance,
