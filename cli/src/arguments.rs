@@ -30,7 +30,8 @@ pub enum Command {
     /// Write a study to start from
     New {
         /// Which one: big-end, main-bearing, coefficients, lemon-bearing, clearance-sweep,
-        /// one-axis-cycle, film, dimensionless, engine-i1, -i3, -i4, -i5, -i6, -v6, -v8, -boxer,
+        /// one-axis-cycle, film, dimensionless, engine-i1, engine-i3, engine-i4,
+        /// engine-i5, engine-i6, engine-v6, engine-v8, engine-boxer,
         /// balancer-shaft
         template: String,
         /// Where to write it; made if it is not there

@@ -96,12 +96,6 @@ pub enum DiagramError {
         /// As given.
         half_width: f64,
     },
-    /// No diagram, or diagrams of different cycles, or speeds that do not ascend above zero.
-    #[error("the diagrams of the gas are {0}")]
-    Diagrams(&'static str),
-    /// The table of peak pressures is not one.
-    #[error("the peak pressures of the gas are {0}")]
-    Peaks(&'static str),
 }
 
 impl IndicatorDiagram {
