@@ -72,7 +72,9 @@ fn files(directory: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// A report without the row of its wall time, which must stand there once.
 fn without_wall_time(report: &str) -> String {
-    let before = report.find("Wall time").expect("the report names its wall time");
+    let before = report
+        .find("Wall time")
+        .expect("the report names its wall time");
     let after = before + report[before..].find("</tr>").expect("a row of a table");
     assert!(!report[after..].contains("Wall time"));
     format!("{}{}", &report[..before], &report[after..])

@@ -68,6 +68,7 @@ pub(super) fn run_machine(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
     let start = Instant::now();
+    refuse_error_bars(study, options)?;
     check_directory(directory, &study.files)?;
     prepare_directory(directory)?;
     let mut ledger = Ledger::open(directory, &ledger_study(study, plan))?;
@@ -89,7 +90,7 @@ pub(super) fn run_machine(
     }
     compute(&work, options, Some(&mut ledger), &mut found, progress)?;
     let is_complete = found.len() == work.units.len();
-    let mut results = results(study, work, found, options);
+    let mut results = results(study, work, found);
     results.header.wall_time = start.elapsed().as_secs_f64();
     let files = write_all(&results, directory)?;
     if is_complete {
@@ -106,12 +107,26 @@ pub(super) fn solve_machine(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Results, RunError> {
     let start = Instant::now();
+    refuse_error_bars(study, options)?;
     let work = Work::new(plan, &study.film)?;
     let mut found = BTreeMap::new();
     compute(&work, options, None, &mut found, progress)?;
-    let mut results = results(study, work, found, options);
+    let mut results = results(study, work, found);
     results.header.wall_time = start.elapsed().as_secs_f64();
     Ok(results)
+}
+
+/// Error bars need every orbit on three grids; they are there for one bearing at a time.
+fn refuse_error_bars(study: &Study, options: RunOptions) -> Result<(), RunError> {
+    let asked = match (options.verify, study.film.relative_error_target) {
+        (true, _) => "--verify",
+        (false, Some(_)) => "film.relative_error_target",
+        (false, None) => return Ok(()),
+    };
+    Err(RunError::NoErrorBars {
+        asked,
+        analysis: study.analysis.name(),
+    })
 }
 
 /// Computes the units that are not found yet.
@@ -135,12 +150,7 @@ fn compute(
     work_through(&todo, options.threads, &solve, &mut desk)
 }
 
-fn results(
-    study: &Study,
-    work: Work<'_>,
-    found: BTreeMap<usize, UnitFound>,
-    options: RunOptions,
-) -> Results {
+fn results(study: &Study, work: Work<'_>, found: BTreeMap<usize, UnitFound>) -> Results {
     let mut header = header(study);
     let machine = assemble(work, found, &mut header);
     let mut results = Results {
@@ -148,13 +158,6 @@ fn results(
         body: Body::Machine(Box::new(machine)),
     };
     finish_results(study, &mut results);
-    if options.verify || study.film.relative_error_target.is_some() {
-        results.header.messages.push(
-            "no error bars: they are not there for all bearings of a machine at once; run the load \
-             file of a bearing as a load-cycle study for those of its orbit"
-                .to_owned(),
-        );
-    }
     results
 }
 
