@@ -9,7 +9,8 @@ mod machines;
 
 use machines::{RPM, inline_plan, study};
 use sommerfeld_engine::Role;
-use sommerfeld_study::input::{FilmModel, StudyLimit};
+use sommerfeld_film::FilmShear;
+use sommerfeld_study::input::{FilmModel, StudyLimit, Subject};
 use sommerfeld_study::output::summary;
 use sommerfeld_study::results::machine::MachineResults;
 use sommerfeld_study::results::{Body, Results};
@@ -109,9 +110,10 @@ fn same_but_wall_time(name: &str, a: &[u8], b: &[u8], wall_times: [f64; 2]) {
     );
 }
 
-/// Orbits that are done, as the progress counts them.
-fn orbits_done(event: &ProgressEvent) -> Option<usize> {
-    event.label.split(' ').next()?.parse().ok()
+/// Orbits that are done, which every sign of life of a machine counts.
+fn orbits_done(event: &ProgressEvent) -> usize {
+    let count = event.label.split(' ').next().unwrap();
+    count.parse().unwrap()
 }
 
 #[test]
@@ -258,10 +260,7 @@ fn a_stopped_run_is_taken_up_to_the_same_files() {
         let mut done_before = None;
         // Stops when some orbits of this run are done.
         let mut stop = |event: ProgressEvent| {
-            // What an earlier run has done is told without a count.
-            let Some(done) = orbits_done(&event) else {
-                return ControlFlow::Continue(());
-            };
+            let done = orbits_done(&event);
             match done >= *done_before.get_or_insert(done) + 5 {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
@@ -352,4 +351,35 @@ fn the_load_file_of_a_bearing_gives_its_orbit() {
             }
         }
     }
+}
+
+/// A film that refuses a bearing ends the run; as nothing was found, the study may be mended and run in the
+/// same directory.
+#[test]
+fn a_refused_bearing_leaves_the_directory_free() {
+    let mut plan = inline_plan(&[1], &[2000.0]);
+    // Closed forms shear over the full width.
+    plan.bearings[0].bearing.film_shear = FilmShear::FilmFraction;
+    let mut study = study(plan, FilmModel::ShortBearing, [64, 16], Vec::new());
+    let directory = tempfile::tempdir().unwrap();
+    let run = |study: &Study| {
+        run_with(study, directory.path(), threads(1), &mut |_| {
+            ControlFlow::Continue(())
+        })
+    };
+    let error = run(&study).unwrap_err();
+    assert!(
+        error.to_string().starts_with("main-1 at 2000 rpm: "),
+        "{error}"
+    );
+    assert_eq!(fs::read_dir(directory.path()).unwrap().count(), 0);
+    let Subject::Machine(plan) = &mut study.subject else {
+        panic!("no machine");
+    };
+    plan.bearings[0].bearing.film_shear = FilmShear::FullWidth;
+    study.input_hash = "mended".into();
+    assert_eq!(
+        run(&study).unwrap().results.header.status,
+        Outcome::Converged
+    );
 }

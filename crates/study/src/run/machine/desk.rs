@@ -1,12 +1,12 @@
 //! The calling thread of a machine: keeps what units found and shows how far they are.
 
-use super::units::UnitFound;
-use super::{ProgressCallback, RunError, Work};
+use super::units::{UnitFound, solve_unit};
+use super::{ProgressCallback, RunError, RunOptions, Work};
 use crate::ledger::{Entry, Ledger};
 use crate::output::OutputError;
 use crate::progress::ProgressEvent;
 use crate::results::status_name;
-use crate::run::crew::{Desk, News};
+use crate::run::crew::{Desk, News, work_through};
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
@@ -48,6 +48,21 @@ impl<'a> UnitDesk<'a> {
         desk
     }
 
+    /// Computes the units that are not found yet.
+    pub(super) fn compute(mut self, options: RunOptions) -> Result<(), RunError> {
+        let work = self.work;
+        let todo: Vec<usize> = (0..work.units.len())
+            .filter(|unit| !self.found.contains_key(unit))
+            .collect();
+        let is_kept = self.ledger.is_some();
+        let solve = |unit: usize, progress: &mut ProgressCallback<'_>| {
+            let found = solve_unit(work, &work.units[unit], progress)?;
+            let content = is_kept.then(|| packed(&found)).transpose()?;
+            Ok((found, content))
+        };
+        work_through(&todo, options.threads, &solve, &mut self)
+    }
+
     /// Orbits that a unit stands for.
     fn orbits(&self, unit: usize) -> usize {
         let unit = self.work.units.get(unit);
@@ -58,7 +73,8 @@ impl<'a> UnitDesk<'a> {
         self.found.keys().map(|unit| self.orbits(*unit)).sum()
     }
 
-    fn tell(&mut self, message: Option<String>) -> ControlFlow<()> {
+    /// Shows how far the work is, with something worth a line.
+    pub(super) fn tell(&mut self, message: Option<String>) -> ControlFlow<()> {
         let total: usize = (0..self.work.units.len()).map(|at| self.orbits(at)).sum();
         let done = self.done();
         let shares = self.shares.iter();
