@@ -15,82 +15,54 @@
 //!
 //! SI throughout; pressures of the gas are absolute.
 
-mod chamber;
-mod closed_cycle;
-mod combustion;
-mod combustion_error;
 mod coupled;
-mod crank_frame;
-mod crank_station;
 mod crank_train;
-mod crankshaft;
-mod cylinder;
-mod diagram;
 mod drilling;
 mod duty;
-mod gas_exchange;
+mod gas;
 mod harmonics;
-mod heat_ratio;
-mod heat_release;
-mod kinematics;
 mod layout;
-mod layout_plan;
 mod loads;
 mod mains;
-mod measured;
 mod motion;
 mod performance;
 mod pin_speed;
-mod rod_forces;
 mod shaft;
-mod shaft_error;
-mod shaft_force;
-mod shaft_frame;
-mod smoothing;
-mod supports;
-mod throw_stiffness;
+mod slider_crank;
 mod torsion;
-mod wall_heat;
 
-pub use chamber::Chamber;
-pub use combustion::{Combustion, GeneratedCycle};
-pub use combustion_error::CombustionError;
 pub use coupled::{
     CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest, FilmExecutor, FilmUpdate,
     ShaftForces, coupled_orbits, in_sequence,
 };
-pub use crank_frame::condensed_crankshaft;
 pub use crank_train::{CrankTrain, Rod, Unbalance};
-pub use crankshaft::{CrankshaftShape, Mains, PinFit, Supports, Web};
-pub use cylinder::{CylinderInstant, WorkingCylinder};
-pub use diagram::{DiagramError, Gas, IndicatorDiagram, PeakScaling};
 pub use drilling::{
     Drilling, DrillingInlet, GrooveArc, HoleSupply, arm_in_rod_frame, mouth_radius,
 };
 pub use duty::{BearingDuty, Role};
-pub use gas_exchange::GasExchange;
+pub use gas::{
+    Chamber, Closure, Combustion, CombustionError, Convention, CycleScales, DiagramError, Gas,
+    GasExchange, GasInstant, GeneratedCycle, HeatRatio, HeatRelease, IndicatorDiagram, PeakScaling,
+    Seam, Sense, WallHeat, Wiebe, Woschni,
+};
 pub use harmonics::{delayed, harmonics};
-pub use heat_ratio::HeatRatio;
-pub use heat_release::{HeatRelease, Wiebe};
-pub use kinematics::{SliderCrank, SliderCrankInstant};
-pub use layout::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
-pub use layout_plan::{LayoutKind, LayoutPlan};
+pub use layout::{Cylinder, EngineLayout, LayoutError, LayoutKind, LayoutPlan, Strokes, Throw};
 pub use loads::bearing_duties;
 pub use mains::{determinate_main_loads, resultant, shaft_forces};
-pub use measured::{Closure, Convention, Seam, Sense};
 pub use motion::{CrankMotion, Harmonic, ThrowInstant, Twist};
 pub use performance::{Performance, cycle_work, performance, throw_torques};
 pub use pin_speed::{PinBalance, PinSpeed};
-pub use rod_forces::{RodForces, inertia_force, rod_forces};
-pub use shaft::{GeneralShaft, ShaftLoad, ShaftSection};
-pub use shaft_error::ShaftError;
-pub use shaft_force::ShaftForce;
-pub use shaft_frame::condensed_shaft;
-pub use supports::{SupportReactions, support_reactions};
-pub use throw_stiffness::{ThrowStiffness, fitted_web, throw_stiffness};
+pub use shaft::{
+    CrankshaftShape, GeneralShaft, Mains, PinFit, ShaftError, ShaftForce, ShaftLoad, ShaftSection,
+    SupportReactions, Supports, ThrowStiffness, Web, condensed_crankshaft, condensed_shaft,
+    fitted_web, support_reactions, throw_stiffness,
+};
+pub use slider_crank::{
+    CylinderInstant, RodForces, SliderCrank, SliderCrankInstant, WorkingCylinder, inertia_force,
+    rod_forces,
+};
 pub use torsion::{
     ChainMatrices, Damper, DamperOptimum, DamperTask, Disc, NaturalVibration, RippleSettings,
     SettledRipple, TorsionError, TorsionResponse, TorsionalChain, TorsionalLink, engine_ripple,
     settle_ripple,
 };
-pub use wall_heat::{CycleScales, GasInstant, WallHeat, Woschni};

@@ -14,8 +14,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 
-/// Highest order that is told: what torsional vibration commonly asks for (Ker Wilson, Practical Solution
-/// of Torsional Vibration Problems, 1963, lists engines to order 12).
+/// Highest order that is told: excitation of higher ones is small.
 const HIGHEST_ORDER: f64 = 12.0;
 
 /// Torque, work and shaking of an engine over one working cycle, at evenly spaced crank angles.

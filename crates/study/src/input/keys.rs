@@ -374,7 +374,7 @@ pub const KEYS: &[Key] = &[
     key("engine.torsion.loss_factor", Number(Range::between(0.0, 10.0, "")), Default("0"), ENGINE, "Loss factor of every link that gives none: imaginary over real part of its stiffness.", "0.035"),
     key("engine.torsion.disc", TableList, Optional, ENGINE, "A disc of the chain, from the free end to the flywheel; two or more.", ""),
     key("engine.torsion.disc.inertia", Quantity(Dimension::Inertia, INERTIA), Required, ENGINE, "Moment of inertia, with the mean share of the moving parts.", "\"0.0327 kg.m2\""),
-    key("engine.torsion.disc.damping", Quantity(Dimension::TorsionalDamping, TWIST_DAMPING), Default("0 N.m.s/rad"), ENGINE, "Damping against the ground.", "\"2 N.m.s/rad\""),
+    key("engine.torsion.disc.damping", Quantity(Dimension::TorsionalDamping, TWIST_DAMPING), Default("0 N.m.s/rad"), ENGINE, "Damping of what adds to the even turning of the disc.", "\"2 N.m.s/rad\""),
     key("engine.torsion.disc.throw", Integer(1, 64), Optional, ENGINE, "Number of the throw that drives it; every throw drives one disc.", "1"),
     key("engine.torsion.link", TableList, Optional, ENGINE, "A link between a disc and the next, one fewer than discs.", ""),
     key("engine.torsion.link.stiffness", Quantity(Dimension::TorsionalStiffness, TWIST), Required, ENGINE, "Torsional stiffness.", "\"1.25 MN.m/rad\""),

@@ -1,7 +1,7 @@
 //! Made-up engines and shafts: the shape of real results, no physics.
 
 use super::{CLEARANCE, accumulated, bearing, bump, field_on, header, limits, summary};
-use sommerfeld_bearing::{CyclePoint, CycleTilt, JournalOrbit, LoadCycle};
+use sommerfeld_bearing::{CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint};
 use sommerfeld_engine::{Harmonic, Performance, Role, TorsionResponse, Twist};
 use sommerfeld_film::{Bearing, JournalState, Outcome, Reaction};
 use sommerfeld_study::results::machine::{BearingResults, MachineResults, SpeedResults};
@@ -93,13 +93,25 @@ fn one(role: Role, index: usize, rpm: f64, with_fields: bool) -> BearingResults 
         .iter()
         .map(|point| [1.15 * point.load[0] - 2e3, 0.9 * point.load[1]])
         .collect();
+    let given = points
+        .iter()
+        .step_by(4)
+        .take(180)
+        .map(|point| LoadPoint {
+            crank_angle: point.crank_angle,
+            load: point.load,
+            moment: [0.0; 2],
+            journal_speed: point.state.journal_speed,
+            shell_speed: 0.0,
+        })
+        .collect();
     let fields = with_fields.then(|| fields(&own, &points));
     BearingResults {
         name: format!("{}-{}", role.name(), index + 1),
         role,
         index,
         load: LoadCycle {
-            points: Vec::new(),
+            points: given,
             period: 2.0 * TAU,
             engine_speed: rpm * PI / 30.0,
             journal_mass: 0.0,

@@ -3,6 +3,7 @@
 //! Simple formulas, no physics: orbit, film and power do not belong to the load. They exercise
 //! every figure and table, nothing more.
 
+#[allow(dead_code, reason = "not every test needs a machine")]
 pub mod machine;
 
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};

@@ -10,7 +10,7 @@
 //! Limits: one cycle, or the mean of many; the thermodynamic loss angle between the peak of a motored
 //! diagram and the dead centre is for the shift to correct.
 
-use crate::diagram::{DiagramError, FEWEST_POINTS, IndicatorDiagram};
+use super::diagram::{DiagramError, FEWEST_POINTS, IndicatorDiagram};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -5,7 +5,7 @@
 //! piston's top dead centre is `asin(e/(r + l))` further, and there the gas cycle begins: an indicator
 //! diagram counts from the dead centre of the piston.
 
-use crate::rod_forces::{RodForces, inertia_force, rod_forces};
+use super::rod_forces::{RodForces, inertia_force, rod_forces};
 use crate::{
     CrankMotion, CrankTrain, IndicatorDiagram, SliderCrank, SliderCrankInstant, ThrowInstant,
 };

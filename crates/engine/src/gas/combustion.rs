@@ -15,7 +15,7 @@
 //! References: J. B. Heywood, Internal Combustion Engine Fundamentals, McGraw-Hill 1988, 9.2 and 14.4;
 //! J. A. Gatowski et al., SAE 841359, 1984 (`kappa` falling linearly with temperature).
 
-use crate::closed_cycle::{ClosedCycle, ClosedGas};
+use super::closed_cycle::{ClosedCycle, ClosedGas};
 use crate::{
     Chamber, CombustionError, GasExchange, HeatRatio, HeatRelease, IndicatorDiagram, Strokes,
     WallHeat,

@@ -5,8 +5,8 @@
 //! throw to throw, lies between the two torsional figures. Mains that are hinged but do not yield leave
 //! the free one as it is: on two hinges a torque alone calls no force across the shaft.
 
-use crate::crank_frame::CrankFrame;
-use crate::shaft_error::positive;
+use super::crank_frame::CrankFrame;
+use super::error::positive;
 use crate::{CrankshaftShape, ShaftError, Throw, Web};
 use sommerfeld_flex::{Frame, NodeLoad};
 

@@ -6,7 +6,7 @@
 //! cubic, and two points integrate cubics exactly. So the reactions are those of the distributed weight.
 //! Loads and weight keep their direction, unbalances turn with the shaft.
 
-use crate::shaft_error::{ascending, positive, within};
+use super::error::{ascending, positive, within};
 use crate::{GeneralShaft, ShaftError, ShaftForce, ShaftLoad};
 use sommerfeld_flex::{CondensedShaft, Frame, Material, Section};
 use std::f64::consts::PI;

@@ -13,7 +13,7 @@
 //!
 //! Reference: W. S. Cleveland, J. Am. Stat. Assoc. 74 (1979) 829-836 (local fit and its weight).
 
-use crate::diagram::{DiagramError, IndicatorDiagram};
+use super::diagram::{DiagramError, IndicatorDiagram};
 
 /// Fewest points under a parabola that smooths.
 const FEWEST_NEIGHBOURS: usize = 5;
@@ -71,7 +71,7 @@ impl IndicatorDiagram {
         };
         let (top, lost) = (self.points[at][0], peak - pressures[at]);
         for (index, (point, pressure)) in self.points.iter().zip(pressures).enumerate() {
-            let away = crate::diagram::from_firing(point[0] - top, self.period) / half_width;
+            let away = super::diagram::from_firing(point[0] - top, self.period) / half_width;
             if away.abs() < 1.0 {
                 *pressure += lost * (1.0 - away * away).powi(2);
             }

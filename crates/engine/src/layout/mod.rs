@@ -1,5 +1,9 @@
 //! Which cylinder works on which throw, and when it fires.
 
+mod plan;
+
+pub use plan::{LayoutKind, LayoutPlan};
+
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 

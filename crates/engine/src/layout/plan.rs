@@ -8,7 +8,7 @@
 //! The axial origin lies half a cylinder spacing before the first throw (of a boxer: before the middle of
 //! its first two), where the first main stands unless positions are given.
 
-use crate::layout::{ANGLE_TOLERANCE, check_dead_centres, overshoot, wrap};
+use super::{ANGLE_TOLERANCE, check_dead_centres, overshoot, wrap};
 use crate::{Cylinder, EngineLayout, LayoutError, Strokes, Throw};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -11,8 +11,8 @@
 //! Limits: no stiffening by overlapping of pins and journals, by fillets or counterweights; such webs are
 //! fitted ([`Web::Fitted`](crate::Web::Fitted)). Nose and flange carry no bending and are left out.
 
-use crate::crank_station::{SAME, Station};
-use crate::shaft_error::{ascending, positive, within};
+use super::crank_station::{SAME, Station};
+use super::error::{ascending, positive, within};
 use crate::{CrankTrain, CrankshaftShape, ShaftError, Throw, Web};
 use sommerfeld_flex::{CondensedShaft, Frame, Material, Section};
 
