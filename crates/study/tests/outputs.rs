@@ -3,7 +3,6 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
-#[allow(dead_code, reason = "machines have tests of their own")]
 mod synthetic;
 
 use serde_json::Value;
