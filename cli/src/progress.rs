@@ -1,4 +1,4 @@
-//! How far a run is: a bar with the time left on a terminal, plain lines elsewhere; and Ctrl-C.
+//! How far a run is, with the time left: a bar on a terminal, plain lines elsewhere; and Ctrl-C.
 
 use indicatif::{ProgressBar, ProgressStyle};
 use sommerfeld_study::ProgressEvent;
@@ -6,6 +6,7 @@ use std::io::{self, IsTerminal};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 /// Steps of the bar.
 const STEPS: u64 = 1000;
@@ -20,8 +21,11 @@ pub struct Progress {
 
 enum Display {
     Bar(ProgressBar),
-    /// Number of tenths already told.
-    Lines(Option<u8>),
+    Lines {
+        start: Instant,
+        /// Number of tenths already told.
+        told: Option<u8>,
+    },
 }
 
 impl Progress {
@@ -35,7 +39,10 @@ impl Progress {
             }
             Display::Bar(bar)
         } else {
-            Display::Lines(None)
+            Display::Lines {
+                start: Instant::now(),
+                told: None,
+            }
         };
         Self { display, stop }
     }
@@ -51,14 +58,16 @@ impl Progress {
                 bar.set_position((done * 1000.0) as u64);
                 bar.set_message(event.label.clone());
             }
-            Display::Lines(told) => {
+            Display::Lines { start, told } => {
                 if let Some(message) = &event.message {
                     eprintln!("{message}");
                 }
                 let tenth = (done * TENTHS) as u8;
                 if told.is_none_or(|told| tenth > told) {
                     *told = Some(tenth);
-                    eprintln!("{:>3} %  {}", 10 * tenth, event.label);
+                    let left = time_left(start.elapsed(), done);
+                    let left = left.map_or(String::new(), |left| format!("  {left} left"));
+                    eprintln!("{:>3} %  {}{left}", 10 * tenth, event.label);
                 }
             }
         }
@@ -77,6 +86,22 @@ impl Progress {
     }
 }
 
+/// What is left of a run that has done this share in this time and goes on as before; `None` at its ends.
+fn time_left(elapsed: Duration, done: f64) -> Option<String> {
+    if done <= 0.0 || done >= 1.0 {
+        return None;
+    }
+    let seconds = (elapsed.as_secs_f64() * (1.0 / done - 1.0)).round();
+    // Beyond years nobody counts; the conversion saturates.
+    let seconds = seconds as u64;
+    let (hours, minutes) = (seconds / 3600, seconds / 60);
+    Some(match (hours, minutes) {
+        (0, 0) => format!("{seconds}s"),
+        (0, _) => format!("{minutes}m {}s", seconds % 60),
+        _ => format!("{hours}h {}m", minutes % 60),
+    })
+}
+
 /// A flag that Ctrl-C raises. The run stops at its next event and leaves a valid directory; a second
 /// Ctrl-C ends the program at once.
 pub fn stop_flag() -> Arc<AtomicBool> {
@@ -89,4 +114,20 @@ pub fn stop_flag() -> Arc<AtomicBool> {
         }
     });
     stop
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_follows_from_the_share_done() {
+        let left = |elapsed, done| time_left(Duration::from_secs(elapsed), done);
+        assert_eq!(left(10, 0.0), None);
+        assert_eq!(left(10, 1.0), None);
+        assert_eq!(left(10, 0.25), Some("30s".to_owned()));
+        assert_eq!(left(61, 0.5), Some("1m 1s".to_owned()));
+        assert_eq!(left(3600, 0.4), Some("1h 30m".to_owned()));
+        assert!(left(1, f64::MIN_POSITIVE).is_some());
+    }
 }

@@ -19,7 +19,7 @@ pub struct RunArguments {
     /// Directory of the results [default: beside the study, named after it]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Solve on coarser grids and with longer time steps too, and state error bars
+    /// Solve on coarser grids and with longer time steps too, and state error bars; not of a machine
     #[arg(long)]
     pub verify: bool,
     /// Threads for the cases of a sweep or the bearings of a machine; no result depends on it [default: one for each processor]
@@ -60,7 +60,12 @@ pub fn run(arguments: &RunArguments) -> Exit {
                 Exit::NotConverged
             }
         }
-        Err(error @ (RunError::Film(_) | RunError::Bearing { .. } | RunError::Machine { .. })) => {
+        Err(
+            error @ (RunError::Film(_)
+            | RunError::Bearing { .. }
+            | RunError::Machine { .. }
+            | RunError::NoErrorBars { .. }),
+        ) => {
             eprintln!("error: {}: {error}", arguments.file.display());
             Exit::Refused
         }

@@ -14,6 +14,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 
+# Columns of text.
+WORDS = ["status", "bearing", "role"]
+
+
 class Results:
     """A directory of results."""
 
@@ -30,7 +34,7 @@ class Results:
             header, *rows = csv.reader(file)
         columns = {}
         for column, values in zip(header, zip(*rows)):
-            if column != "status":
+            if column not in WORDS and not column.startswith("limit_"):
                 columns[column] = [float(value) for value in values]
         return columns
 
@@ -93,3 +97,71 @@ def dimensionless(tmp_path_factory):
     command = os.environ.get("SOMMERFELD_BIN", str(ROOT / "target/debug/sommerfeld"))
     subprocess.run([command, "new", "dimensionless", directory], check=True, capture_output=True)
     return run(directory / "dimensionless.toml", tmp_path_factory.mktemp("dimensionless"))
+
+
+ENGINE = """
+schema = 1
+title = "Two bearings and a rod"
+analysis = "engine"
+
+[engine]
+layout = "inline"
+cylinders = 1
+cylinder_spacing = "100 mm"
+bore = "86 mm"
+stroke = "86 mm"
+rod_length = "145 mm"
+piston_mass = "0.45 kg"
+rod_mass = "0.58 kg"
+rod_centre_of_gravity = "42 mm"
+rod_inertia = "2.6e-3 kg.m2"
+speed = SPEEDS
+
+[engine.combustion]
+compression_ratio = 10.5
+heat = "1.45 kJ"
+
+[[engine.combustion.burning]]
+start = "-15 deg"
+duration = "60 deg"
+
+[[bearing]]
+of = "main"
+diameter = "54 mm"
+width = "24 mm"
+diametral_clearance = "42 um"
+
+[[bearing]]
+of = "big-end"
+diameter = "48 mm"
+width = "22 mm"
+diametral_clearance = "38 um"
+
+[oil]
+viscosity = "8 mPa.s"
+
+[film]
+FILM
+
+[orbit]
+crank_step = "4 deg"
+
+[limits]
+minimum_film_thickness = { value = "1 um", source = "test" }
+"""
+
+
+def engine_study(directory, speeds, film):
+    """A single-cylinder engine at these speeds, rpm."""
+    speeds = "[" + ", ".join(f'"{speed} rpm"' for speed in speeds) + "]"
+    study = directory / "engine.toml"
+    study.write_text(ENGINE.replace("SPEEDS", speeds).replace("FILM", film))
+    return study
+
+
+@pytest.fixture(scope="session")
+def engine(tmp_path_factory):
+    """An engine at two speeds, its films on a coarse grid."""
+    film = 'cavitation = "reynolds"\ngrid = [32, 8]'
+    study = engine_study(tmp_path_factory.mktemp("study"), [2000, 3500], film)
+    return run(study, tmp_path_factory.mktemp("engine"))

@@ -1,5 +1,6 @@
 """results.h5 as h5py reads it, against the tables and the summary of the same run."""
 
+import csv
 import os
 import re
 import subprocess
@@ -38,7 +39,7 @@ def film_force(pressure, angle, axial, bearing):
     return -np.array([(load * np.cos(phi)[:, None]).sum(), (load * np.sin(phi)[:, None]).sum()])
 
 
-@pytest.mark.parametrize("name", ["steady", "cycle", "cycle_frames", "dimensionless"])
+@pytest.mark.parametrize("name", ["steady", "cycle", "cycle_frames", "dimensionless", "engine"])
 def test_every_dataset_says_what_it_is(name, request):
     results = request.getfixturevalue(name)
     with h5py.File(results.path("results.h5")) as file:
@@ -210,3 +211,96 @@ def test_the_recipe_of_the_readme_runs(cycle):
     megapascals = float(re.search(r"([\d.]+) MPa", ended.stdout).group(1))
     peak = cycle.summary["peak_film_pressure_pa"]
     assert 0.95 * peak < 1e6 * megapascals <= 1.001 * peak, ended.stdout
+
+
+BEARINGS = ["main-1", "main-2", "big-end-1"]
+SPEEDS = {"2000rpm": 2000.0, "3500rpm": 3500.0}
+
+
+def name_and_unit(column):
+    name, unit = re.fullmatch(r"(.*)\[(.*)\]", column).groups()
+    return name, {"-": "1"}.get(unit, unit)
+
+
+def same_columns(group, table):
+    """Every column of a table stands in the group, with its unit, number by number."""
+    for column, values in table.items():
+        name, unit = name_and_unit(column)
+        assert np.array_equal(group[name][:], values, equal_nan=True), column
+        assert group[name].attrs["units"] == unit, column
+
+
+def test_an_engine_has_a_group_for_each_speed_and_bearing(engine):
+    with h5py.File(engine.path("results.h5")) as file:
+        assert "hinge" in file.attrs["load_model"]
+        assert set(file["speeds"]) == set(SPEEDS)
+        for label, rpm in SPEEDS.items():
+            speed = file["speeds"][label]
+            assert speed["speed"][()] == rpm and speed["speed"].attrs["units"] == "rpm"
+            same_columns(speed["engine"], engine.table(f"{label}/engine.csv"))
+            same_columns(speed["orders"], engine.table(f"{label}/orders.csv"))
+            assert set(speed["bearings"]) == set(BEARINGS)
+            for name in BEARINGS:
+                bearing = speed["bearings"][name]
+                assert bearing.attrs["role"] == name.rsplit("-", 1)[0]
+                assert bearing.attrs["status"] == "converged"
+                same_columns(bearing["cycle"], engine.table(f"{label}/cycle-{name}.csv"))
+                assert np.all(bearing["cycle/converged"][:] == 1.0)
+                film, pressure = bearing["worst/film_thickness"], bearing["worst/pressure"]
+                assert film.shape == pressure.shape == (32, 8)
+                assert (film.attrs["units"], pressure.attrs["units"]) == ("m", "Pa")
+                # Fields over the cycle are those of the first speed.
+                assert ("fields" in bearing) == (rpm == 2000.0)
+
+
+def test_key_figures_of_bearings_follow_from_their_cycles(engine):
+    table = engine.table("bearings.csv")
+    with open(engine.path("bearings.csv"), newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [(float(row["speed[rpm]"]), row["bearing"]) for row in rows] == [
+        (rpm, name) for rpm in SPEEDS.values() for name in BEARINGS
+    ]
+    listed = [
+        bearing for speed in engine.summary["speeds"] for bearing in speed["bearings"]
+    ]
+    with h5py.File(engine.path("results.h5")) as file:
+        for number, (row, summary) in enumerate(zip(rows, listed, strict=True)):
+            label = f"{float(row['speed[rpm]']):g}rpm"
+            bearing = file["speeds"][label]["bearings"][row["bearing"]]
+            cycle = bearing["cycle"]
+            load = np.hypot(cycle["load_x"][:], cycle["load_y"][:])
+            # Fixed loads: the file writes their components, the table their size.
+            assert np.isclose(load.max(), table["maximum_load[N]"][number], rtol=1e-12)
+            area = bearing["bearing/width"][()] * bearing["bearing/diameter"][()]
+            assert np.isclose(load.max() / area, table["maximum_specific_load[Pa]"][number], rtol=1e-12)
+            least = cycle["minimum_film_thickness"][:].min()
+            assert least == table["minimum_film_thickness[m]"][number] == summary["minimum_film_thickness_m"]
+            peak = cycle["peak_film_pressure"][:].max()
+            assert peak == table["peak_film_pressure[Pa]"][number] == summary["peak_film_pressure_pa"]
+            # The last row repeats the first: one period.
+            lost = cycle["power_loss"][1:].mean()
+            assert np.isclose(lost, table["mean_power_loss[W]"][number], rtol=1e-9)
+            verdict = row["limit_minimum_film_thickness"]
+            assert verdict == ("OK" if least >= 1e-6 else "exceeded")
+            assert summary["limits"][0]["verdict"] == verdict.lower()
+            assert (row["bearing"], row["role"], row["status"]) == tuple(summary[key] for key in ["name", "role", "status"])
+
+
+def test_loads_of_an_engine_are_tables_of_loads(engine):
+    with h5py.File(engine.path("results.h5")) as file:
+        for label, rpm in SPEEDS.items():
+            for name in BEARINGS:
+                with open(engine.path(f"{label}/loads-{name}.csv"), newline="") as text:
+                    comment, header, *rows = csv.reader(text)
+                assert comment[0].startswith("#") and name in comment[0]
+                columns = dict(zip(header, np.array(rows, dtype=float).T, strict=True))
+                load = file["speeds"][label]["bearings"][name]["load"]
+                same_columns(load, columns)
+                assert len(columns["crank_angle[deg]"]) == 180
+                assert np.allclose(np.diff(columns["crank_angle[deg]"]), 4.0)
+                # Seen from shells that stand; the rod swings against the crank: sin(swing) = ratio sin(angle).
+                assert np.all(columns["shell_speed[rad/s]"] == 0.0)
+                angle, ratio = np.radians(columns["crank_angle[deg]"]), 43 / 145
+                swing = ratio * np.cos(angle) / np.sqrt(1 - (ratio * np.sin(angle)) ** 2)
+                expected = rpm * np.pi / 30 * (1 + (swing if name == "big-end-1" else 0))
+                assert np.allclose(columns["journal_speed[rad/s]"], expected, rtol=1e-9)

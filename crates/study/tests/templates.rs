@@ -10,9 +10,43 @@ use std::ops::ControlFlow;
 const GRID: &str = "grid = [128, 32]";
 const COARSE: &str = "grid = [48, 12]";
 
+/// Machines have many orbits: at their higher speed, on a grid of their own, in longer crank steps.
+const MACHINE_GRID: &str = "grid = [64, 16]";
+const MACHINE_COARSE: &str = "grid = [32, 8]";
+const LONG_STEPS: &str = "\n[orbit]\ncrank_step = \"4 deg\"\n";
+
+fn coarse_machine(text: &str) -> String {
+    for (speeds, one) in [
+        (
+            "speed = [\"2000 rpm\", \"4000 rpm\"]",
+            "speed = \"4000 rpm\"",
+        ),
+        (
+            "speed = [\"4000 rpm\", \"8000 rpm\"]",
+            "speed = \"8000 rpm\"",
+        ),
+    ] {
+        if text.contains(speeds) {
+            assert!(
+                text.contains(MACHINE_GRID) && !text.contains("[orbit]"),
+                "{text}"
+            );
+            let text = text
+                .replace(speeds, one)
+                .replace(MACHINE_GRID, MACHINE_COARSE);
+            return text + LONG_STEPS;
+        }
+    }
+    panic!("a machine at other speeds: {text}")
+}
+
 /// A study on the coarse grid. A sweep takes that of its base; a table of loads has none.
 fn coarse(text: &str) -> String {
+    let is_machine = ["engine", "shaft"]
+        .iter()
+        .any(|analysis| text.contains(&format!("analysis = \"{analysis}\"")));
     match text {
+        _ if is_machine => coarse_machine(text),
         _ if !text.contains("schema = 1") || text.contains("[sweep]") => text.to_owned(),
         _ if text.contains(GRID) => text.replace(GRID, COARSE),
         _ if text.contains("[film]") => text.replace("[film]", &format!("[film]\n{COARSE}")),

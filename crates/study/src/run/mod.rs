@@ -82,6 +82,16 @@ pub enum RunError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Error bars are asked of a machine.
+    #[error(
+        "{asked} states the discretisation error of one bearing, not of all bearings of the analysis {analysis}\n  = hint: run without it, then the loads-<name>.csv of a bearing as a load-cycle study with --verify"
+    )]
+    NoErrorBars {
+        /// The option or key.
+        asked: &'static str,
+        /// The analysis.
+        analysis: &'static str,
+    },
     /// Results could not be written.
     #[error("{0}")]
     Output(#[from] OutputError),

@@ -302,9 +302,9 @@ impl Checker<'_> {
             } else if self.mode.is_machine() && key.path == "film.relative_error_target" {
                 let what = format!("an error target of the analysis {}", self.mode.name());
                 let error = not_built(note, &what);
-                self.errors.push(
-                    error.hinting("take it out; a finer film.grid shows what the grid costs"),
-                );
+                self.errors.push(error.hinting(
+                    "take it out; the loads-<name>.csv of a bearing can be run as a load-cycle study with a target",
+                ));
             } else {
                 self.warnings.push(note);
             }

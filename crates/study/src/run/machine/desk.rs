@@ -1,12 +1,12 @@
 //! The calling thread of a machine: keeps what units found and shows how far they are.
 
-use super::units::UnitFound;
-use super::{ProgressCallback, RunError, Work};
+use super::units::{UnitFound, solve_unit};
+use super::{ProgressCallback, RunError, RunOptions, Work};
 use crate::ledger::{Entry, Ledger};
 use crate::output::OutputError;
 use crate::progress::ProgressEvent;
 use crate::results::status_name;
-use crate::run::crew::{Desk, News};
+use crate::run::crew::{Desk, News, work_through};
 use flate2::Compression;
 use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
@@ -48,6 +48,21 @@ impl<'a> UnitDesk<'a> {
         desk
     }
 
+    /// Computes the units that are not found yet.
+    pub(super) fn compute(mut self, options: RunOptions) -> Result<(), RunError> {
+        let work = self.work;
+        let todo: Vec<usize> = (0..work.units.len())
+            .filter(|unit| !self.found.contains_key(unit))
+            .collect();
+        let is_kept = self.ledger.is_some();
+        let solve = |unit: usize, progress: &mut ProgressCallback<'_>| {
+            let found = solve_unit(work, &work.units[unit], progress)?;
+            let content = is_kept.then(|| packed(&found)).transpose()?;
+            Ok((found, content))
+        };
+        work_through(&todo, options.threads, &solve, &mut self)
+    }
+
     /// Orbits that a unit stands for.
     fn orbits(&self, unit: usize) -> usize {
         let unit = self.work.units.get(unit);
@@ -58,7 +73,8 @@ impl<'a> UnitDesk<'a> {
         self.found.keys().map(|unit| self.orbits(*unit)).sum()
     }
 
-    fn tell(&mut self, message: Option<String>) -> ControlFlow<()> {
+    /// Shows how far the work is, with something worth a line.
+    pub(super) fn tell(&mut self, message: Option<String>) -> ControlFlow<()> {
         let total: usize = (0..self.work.units.len()).map(|at| self.orbits(at)).sum();
         let done = self.done();
         let shares = self.shares.iter();
@@ -152,16 +168,81 @@ pub(super) fn packed(found: &UnitFound) -> Result<Vec<u8>, RunError> {
     encoder.finish().map_err(|error| failed(error.to_string()))
 }
 
+/// The reverse of [`packed`].
+fn unpacked(content: &[u8]) -> Result<UnitFound, String> {
+    ciborium::from_reader(ZlibDecoder::new(content)).map_err(|error| error.to_string())
+}
+
 /// The units that a ledger holds, of a run of so many.
 pub(super) fn read(ledger: &Ledger, units: usize) -> Result<BTreeMap<usize, UnitFound>, RunError> {
     let findings = ledger.findings()?.into_iter();
     let found = findings.map(|(number, content)| {
         let unit = number.checked_sub(1).filter(|unit| *unit < units);
         let unit = unit.ok_or_else(|| ledger.damaged("it holds a calculation of another run"))?;
-        let found = ciborium::from_reader(ZlibDecoder::new(content.as_slice()));
-        let found =
-            found.map_err(|error| ledger.damaged(&format!("calculation {number}: {error}")))?;
+        let found = unpacked(&content)
+            .map_err(|reason| ledger.damaged(&format!("calculation {number}: {reason}")))?;
         Ok((unit, found))
     });
     found.collect()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
+mod tests {
+    use super::*;
+    use crate::run::machine::units::BearingFound;
+    use sommerfeld_bearing::{CycleTilt, JournalOrbit, LoadCycle};
+
+    /// Numbers that compare as equal, or as never equal, are still themselves after the ledger.
+    #[test]
+    fn the_ledger_keeps_every_bit_of_a_number() {
+        let payload = f64::from_bits(0xfff8_0000_0000_1234);
+        let signalling = f64::from_bits(0x7ff0_0000_0000_0001);
+        let values = [
+            0.0,
+            -0.0,
+            f64::NAN,
+            -f64::NAN,
+            payload,
+            signalling,
+            f64::INFINITY,
+            f64::MIN_POSITIVE / 1024.0,
+            0.1,
+            1.0,
+            f64::from(0.1_f32),
+        ];
+        let rows = values.map(|value| [value, -value]).to_vec();
+        let found = vec![BearingFound {
+            bearing: 3,
+            load: LoadCycle {
+                points: Vec::new(),
+                period: 1.0,
+                engine_speed: 1.0,
+                journal_mass: 0.0,
+                tilt: CycleTilt::Prescribed(rows.clone()),
+                feed_pressures: Vec::new(),
+            },
+            determinate_load: Some(rows),
+            orbit: JournalOrbit {
+                points: Vec::new(),
+                outcome: Outcome::Converged,
+                cycles: 2,
+                closure: f64::NAN,
+                steps: 720,
+                film_solves: 2000,
+            },
+            feed_flows: Vec::new(),
+            fields: None,
+            notes: vec!["µ".to_owned()],
+        }];
+        let read = unpacked(&packed(&found).unwrap()).unwrap();
+        let bits = |found: &UnitFound| -> Vec<u64> {
+            let rows = found[0].determinate_load.iter().flatten().flatten();
+            rows.map(|value| value.to_bits()).collect()
+        };
+        assert_eq!(bits(&read), bits(&found));
+        assert_eq!(read[0].notes, found[0].notes);
+        assert!(read[0].orbit.closure.is_nan());
+        assert!(unpacked(b"neither deflated nor CBOR").is_err());
+    }
 }

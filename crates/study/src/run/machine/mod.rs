@@ -11,7 +11,6 @@ mod pin;
 mod speeds;
 mod units;
 
-use super::crew::work_through;
 use super::{
     ProgressCallback, RunError, RunOptions, RunSummary, finish_results, header, viscosity_law,
 };
@@ -29,7 +28,7 @@ use speeds::SpeedLoads;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
-use units::{Unit, UnitFound, solve_unit, units};
+use units::{Unit, UnitFound, units};
 
 /// What all units share: the machine, its loads at every speed, and the list of the units.
 struct Work<'a> {
@@ -68,28 +67,29 @@ pub(super) fn run_machine(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<RunSummary, RunError> {
     let start = Instant::now();
+    refuse_error_bars(study, options)?;
     check_directory(directory, &study.files)?;
+    let work = Work::new(plan, &study.film)?;
     prepare_directory(directory)?;
     let mut ledger = Ledger::open(directory, &ledger_study(study, plan))?;
-    let work = Work::new(plan, &study.film)?;
     let mut found = read(&ledger, work.units.len())?;
-    if !found.is_empty() {
-        let told = format!(
-            "{} of {} calculations were found done in {}",
-            found.len(),
-            work.units.len(),
-            directory.display()
-        );
-        let event = crate::ProgressEvent {
-            message: Some(told),
-            ..crate::ProgressEvent::new("", 0.0)
-        };
-        // A stop is heard at the next sign of life.
-        let _ = progress(event);
+    let told = (!found.is_empty()).then(|| {
+        let (done, units) = (found.len(), work.units.len());
+        let place = directory.display();
+        format!("{done} of {units} calculations were found done in {place}")
+    });
+    let mut desk = UnitDesk::new(&work, Some(&mut ledger), &mut found, progress);
+    // A stop is heard at the next sign of life.
+    let _ = desk.tell(told);
+    if let Err(error) = desk.compute(options) {
+        // With nothing to take up, the directory is free for the study once it is mended.
+        if found.is_empty() {
+            ledger.remove()?;
+        }
+        return Err(error);
     }
-    compute(&work, options, Some(&mut ledger), &mut found, progress)?;
     let is_complete = found.len() == work.units.len();
-    let mut results = results(study, work, found, options);
+    let mut results = results(study, work, found);
     results.header.wall_time = start.elapsed().as_secs_f64();
     let files = write_all(&results, directory)?;
     if is_complete {
@@ -106,41 +106,29 @@ pub(super) fn solve_machine(
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Results, RunError> {
     let start = Instant::now();
+    refuse_error_bars(study, options)?;
     let work = Work::new(plan, &study.film)?;
     let mut found = BTreeMap::new();
-    compute(&work, options, None, &mut found, progress)?;
-    let mut results = results(study, work, found, options);
+    UnitDesk::new(&work, None, &mut found, progress).compute(options)?;
+    let mut results = results(study, work, found);
     results.header.wall_time = start.elapsed().as_secs_f64();
     Ok(results)
 }
 
-/// Computes the units that are not found yet.
-fn compute(
-    work: &Work<'_>,
-    options: RunOptions,
-    ledger: Option<&mut Ledger>,
-    found: &mut BTreeMap<usize, UnitFound>,
-    progress: &mut ProgressCallback<'_>,
-) -> Result<(), RunError> {
-    let todo: Vec<usize> = (0..work.units.len())
-        .filter(|unit| !found.contains_key(unit))
-        .collect();
-    let is_kept = ledger.is_some();
-    let mut desk = UnitDesk::new(work, ledger, found, progress);
-    let solve = |unit: usize, progress: &mut ProgressCallback<'_>| {
-        let found = solve_unit(work, &work.units[unit], progress)?;
-        let content = is_kept.then(|| desk::packed(&found)).transpose()?;
-        Ok((found, content))
+/// Error bars need every orbit on three grids; they are there for one bearing at a time.
+fn refuse_error_bars(study: &Study, options: RunOptions) -> Result<(), RunError> {
+    let asked = match (options.verify, study.film.relative_error_target) {
+        (true, _) => "--verify",
+        (false, Some(_)) => "film.relative_error_target",
+        (false, None) => return Ok(()),
     };
-    work_through(&todo, options.threads, &solve, &mut desk)
+    Err(RunError::NoErrorBars {
+        asked,
+        analysis: study.analysis.name(),
+    })
 }
 
-fn results(
-    study: &Study,
-    work: Work<'_>,
-    found: BTreeMap<usize, UnitFound>,
-    options: RunOptions,
-) -> Results {
+fn results(study: &Study, work: Work<'_>, found: BTreeMap<usize, UnitFound>) -> Results {
     let mut header = header(study);
     let machine = assemble(work, found, &mut header);
     let mut results = Results {
@@ -148,13 +136,6 @@ fn results(
         body: Body::Machine(Box::new(machine)),
     };
     finish_results(study, &mut results);
-    if options.verify || study.film.relative_error_target.is_some() {
-        results.header.messages.push(
-            "no error bars: they are not there for all bearings of a machine at once; run the load \
-             file of a bearing as a load-cycle study for those of its orbit"
-                .to_owned(),
-        );
-    }
     results
 }
 
