@@ -3,12 +3,15 @@
 use super::Checker;
 use super::duty::round;
 use super::{as_number, value_in};
+use crate::input::read::Entries;
+use crate::input::values::Value;
 use sommerfeld_engine::{
     Chamber, Combustion, GasExchange, HeatRatio, HeatRelease, IndicatorDiagram, WallHeat, Wiebe,
     Woschni,
 };
 use sommerfeld_film::Outcome;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 const SECTION: &str = "engine.combustion";
 const BURNING: &str = "engine.combustion.burning";
@@ -22,19 +25,60 @@ const GAS: HeatRatio = HeatRatio::Falling {
     lowest: 1.2,
 };
 
+const ONE_FOR_EACH: &str = "one for all speeds, or one for each";
+
+/// A part of the heat: its share, and how it burns at each speed.
+struct Burning {
+    share: f64,
+    start: Vec<f64>,
+    duration: Vec<f64>,
+    efficiency: f64,
+    exponent: f64,
+}
+
+impl Burning {
+    fn at(&self, speed: usize) -> Wiebe {
+        Wiebe {
+            start: self.start[speed],
+            duration: self.duration[speed],
+            efficiency: self.efficiency,
+            exponent: self.exponent,
+        }
+    }
+}
+
+/// One value for all speeds, or one for each; how many there are where neither holds.
+fn spread(list: Vec<f64>, speeds: usize) -> Result<Option<Vec<f64>>, usize> {
+    match list[..] {
+        [] => Ok(None),
+        [only] => Ok(Some(vec![only; speeds])),
+        _ if list.len() == speeds => Ok(Some(list)),
+        _ => Err(list.len()),
+    }
+}
+
 impl Checker<'_> {
     /// A diagram for every speed, ascending.
     pub(super) fn generated_gas(&mut self, speeds: &[f64]) -> Option<Vec<(f64, IndicatorDiagram)>> {
         let chamber = self.chamber();
-        let heats = self.for_each_speed("heat", speeds.len());
-        let pressures = self.for_each_speed("intake_pressure", speeds.len());
-        let burning = self.burning();
-        let (chamber, heats, pressures, parts) = (chamber?, heats?, pressures?, burning?);
+        let [heats, intakes, temperatures, exhausts] = [
+            "heat",
+            "intake_pressure",
+            "intake_temperature",
+            "exhaust_pressure",
+        ]
+        .map(|name| self.for_each_speed(name, speeds.len()));
+        let burning = self.burning(speeds.len());
+        let (chamber, heats, intakes) = (chamber?, heats?, intakes?);
+        let (temperatures, exhausts, burning) = (temperatures?, exhausts?, burning?);
         let mut combustion = Combustion {
             chamber,
             strokes: self.strokes()?,
             gas_exchange: self.gas_exchange()?,
-            heat_release: HeatRelease { heat: 0.0, parts },
+            heat_release: HeatRelease {
+                heat: 0.0,
+                parts: Vec::new(),
+            },
             heat_ratio: match self.number("engine.combustion.ratio_of_specific_heats") {
                 Some(ratio) => HeatRatio::Constant(ratio),
                 None => GAS,
@@ -42,9 +86,14 @@ impl Checker<'_> {
             wall_heat: self.wall_heat()?,
         };
         let mut diagrams = Vec::new();
-        for ((speed, heat), pressure) in speeds.iter().zip(heats).zip(pressures) {
-            combustion.heat_release.heat = heat;
-            combustion.gas_exchange.intake_pressure = pressure;
+        for (at, speed) in speeds.iter().enumerate() {
+            combustion.heat_release = HeatRelease {
+                heat: heats[at],
+                parts: burning.iter().map(|part| (part.share, part.at(at))).collect(),
+            };
+            combustion.gas_exchange.intake_pressure = intakes[at];
+            combustion.gas_exchange.intake_temperature = temperatures[at];
+            combustion.gas_exchange.exhaust_pressure = exhausts[at];
             diagrams.push((*speed, self.generate(&combustion, *speed)?));
         }
         diagrams.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -96,29 +145,50 @@ impl Checker<'_> {
     /// Values of a key, one for each speed.
     fn for_each_speed(&mut self, name: &str, speeds: usize) -> Option<Vec<f64>> {
         let path = format!("{SECTION}.{name}");
-        let list = self.list(&path);
-        match list[..] {
-            [] => None,
-            [only] => Some(vec![only; speeds]),
-            _ if list.len() == speeds => Some(list),
-            _ => {
-                let message = format!("`{path}` has {} values for {speeds} speeds", list.len());
+        match spread(self.list(&path), speeds) {
+            Ok(list) => list,
+            Err(values) => {
+                let message = format!("`{path}` has {values} values for {speeds} speeds");
                 let error = self.error_at(&path, message);
-                self.errors
-                    .push(error.allowing("one for all speeds, or one for each"));
+                self.errors.push(error.allowing(ONE_FOR_EACH));
                 None
             }
         }
     }
 
+    /// Values of a key of one part of the heat, one for each speed.
+    fn of_burning(
+        &mut self,
+        (header, entries): &(Range<usize>, Entries),
+        name: &str,
+        speeds: usize,
+    ) -> Option<Vec<f64>> {
+        let path = format!("{BURNING}.{name}");
+        let Some(Value::List(list)) = value_in(entries, &path) else {
+            return None;
+        };
+        match spread(list, speeds) {
+            Ok(list) => list,
+            Err(values) => {
+                let message = format!("`{path}` has {values} values for {speeds} speeds");
+                let at = entries.get(path.as_str());
+                let span = at.map_or(header, |entry| &entry.value_span);
+                let error = self.reading.error(span, message);
+                self.errors.push(error.allowing(ONE_FOR_EACH));
+                None
+            }
+        }
+    }
+
+    /// The valves; pressures and temperature follow for each speed.
     fn gas_exchange(&self) -> Option<GasExchange> {
         let number = |name: &str| self.number(&format!("{SECTION}.{name}"));
         Some(GasExchange {
             intake_closes: number("intake_closes")?,
             exhaust_opens: number("exhaust_opens")?,
             intake_pressure: 0.0,
-            intake_temperature: number("intake_temperature")?,
-            exhaust_pressure: number("exhaust_pressure")?,
+            intake_temperature: 0.0,
+            exhaust_pressure: 0.0,
             blow_down: number("blow_down")?,
             overlap: number("overlap")?,
         })
@@ -141,7 +211,7 @@ impl Checker<'_> {
     }
 
     /// Shares of the heat and how each burns.
-    fn burning(&mut self) -> Option<Vec<(f64, Wiebe)>> {
+    fn burning(&mut self, speeds: usize) -> Option<Vec<Burning>> {
         let list = self.reading.lists.get(BURNING).cloned().unwrap_or_default();
         let heats = self.list("engine.combustion.heat");
         if list.is_empty() {
@@ -157,23 +227,21 @@ impl Checker<'_> {
             );
             return None;
         }
-        let parts: Option<Vec<(f64, Wiebe)>> = list
-            .iter()
-            .map(|(_, entries)| {
-                let number = |name: &str| {
-                    value_in(entries, &format!("{BURNING}.{name}")).and_then(as_number)
-                };
-                let wiebe = Wiebe {
-                    start: number("start")?,
-                    duration: number("duration")?,
-                    efficiency: number("efficiency")?,
-                    exponent: number("exponent")?,
-                };
-                Some((number("share")?, wiebe))
-            })
-            .collect();
-        let mut parts = parts?;
-        let sum: f64 = parts.iter().map(|(share, _)| share).sum();
+        let mut parts = Vec::new();
+        for group in &list {
+            let start = self.of_burning(group, "start", speeds);
+            let duration = self.of_burning(group, "duration", speeds);
+            let number =
+                |name: &str| value_in(&group.1, &format!("{BURNING}.{name}")).and_then(as_number);
+            parts.push(Burning {
+                share: number("share")?,
+                start: start?,
+                duration: duration?,
+                efficiency: number("efficiency")?,
+                exponent: number("exponent")?,
+            });
+        }
+        let sum: f64 = parts.iter().map(|part| part.share).sum();
         // Shares typed to a few digits: 0.333 three times is one.
         if (sum - 1.0).abs() > 2e-3 {
             let message = format!("the shares of the heat add up to {}", round(sum));
@@ -182,7 +250,7 @@ impl Checker<'_> {
             self.errors.push(error.allowing("1 in all"));
             return None;
         }
-        parts.iter_mut().for_each(|(share, _)| *share /= sum);
+        parts.iter_mut().for_each(|part| part.share /= sum);
         Some(parts)
     }
 }
