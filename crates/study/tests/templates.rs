@@ -13,6 +13,7 @@ const COARSE: &str = "grid = [48, 12]";
 /// Machines have many orbits: at their higher speed, on a grid of their own, in longer crank steps.
 const MACHINE_GRID: &str = "grid = [64, 16]";
 const MACHINE_COARSE: &str = "grid = [32, 8]";
+const ORBIT: &str = "\n[orbit]\n";
 const LONG_STEPS: &str = "\n[orbit]\ncrank_step = \"4 deg\"\n";
 
 fn coarse_machine(text: &str) -> String {
@@ -27,14 +28,14 @@ fn coarse_machine(text: &str) -> String {
         ),
     ] {
         if text.contains(speeds) {
-            assert!(
-                text.contains(MACHINE_GRID) && !text.contains("[orbit]"),
-                "{text}"
-            );
+            assert!(text.contains(MACHINE_GRID), "{text}");
             let text = text
                 .replace(speeds, one)
                 .replace(MACHINE_GRID, MACHINE_COARSE);
-            return text + LONG_STEPS;
+            return match text.contains(ORBIT) {
+                true => text.replace(ORBIT, LONG_STEPS),
+                false => text + LONG_STEPS,
+            };
         }
     }
     panic!("a machine at other speeds: {text}")
