@@ -56,8 +56,8 @@ pub use chamber::Chamber;
 pub use combustion::{Combustion, GeneratedCycle};
 pub use combustion_error::CombustionError;
 pub use coupled::{
-    CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest, FilmExecutor, FilmUpdate,
-    ShaftForces, coupled_orbits, in_sequence,
+    COUPLED_ERROR_TOLERANCE, CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest,
+    FilmExecutor, FilmUpdate, ShaftForces, coupled_orbits, in_sequence,
 };
 pub use crank_frame::condensed_crankshaft;
 pub use crank_train::{CrankTrain, Rod, Unbalance};
