@@ -48,14 +48,13 @@ impl ElasticSix {
         Self::of(train, web_thickness, cavitation, feeds)
     }
 
-    /// The same with one cylinder, on rigid supports and a coarse grid.
+    /// The same with one cylinder, thick webs and a coarse grid.
     pub fn single() -> Self {
         let mut train = common::general(common::inline(&[1]));
         train.unbalances.truncate(1);
         Self {
-            supports: Supports::Rigid,
             grid: [32, 8],
-            ..Self::of(train, 0.024, Cavitation::Reynolds, Vec::new())
+            ..Self::of(train, 0.032, Cavitation::Reynolds, Vec::new())
         }
     }
 

@@ -101,7 +101,8 @@ fn one_throw_in_two_mains_is_determinate() {
     let executor: &FilmExecutor<'_> = &threads;
     for film in [MainFilm::Short, MainFilm::Grid] {
         let found = engine.run_on(film, &settings, executor);
-        assert_eq!(found.outcome, Outcome::Converged);
+        let closure = found.orbits[0].closure;
+        assert_eq!(found.outcome, Outcome::Converged, "{film:?}: {closure:e}");
         let (mut apart, mut largest, mut turned) = (0.0_f64, 0.0_f64, 0.0_f64);
         for (a, b) in found.orbits[0].points.iter().zip(&found.orbits[1].points) {
             let forces = engine.forces(a.crank_angle);
