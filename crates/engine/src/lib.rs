@@ -32,8 +32,8 @@ mod slider_crank;
 mod torsion;
 
 pub use coupled::{
-    CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest, FilmExecutor, FilmUpdate,
-    ShaftForces, coupled_orbits, in_sequence,
+    COUPLED_ERROR_TOLERANCE, CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest,
+    FilmExecutor, FilmUpdate, ShaftForces, coupled_orbits, in_sequence,
 };
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use drilling::{

@@ -2,5 +2,10 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
 mod balances;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/elastic_six.rs"]
+mod elastic_six;
+mod engine;
 mod limits;
 mod shafts;

@@ -8,10 +8,11 @@ use crate::run::cycle::{CycleWatch, orbit_settings};
 use crate::run::{conditions, film_of, with_reynolds_number};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
-use sommerfeld_bearing::{CycleTilt, LoadCycle};
+use sommerfeld_bearing::{CycleTilt, LoadCycle, OrbitSettings};
 use sommerfeld_engine::{
-    CoupledJournal, CoupledRequest, CrankshaftShape, FilmUpdate, GeneralShaft, ShaftError,
-    Supports, condensed_crankshaft, condensed_shaft, coupled_orbits, shaft_forces,
+    COUPLED_ERROR_TOLERANCE, CoupledJournal, CoupledRequest, CrankshaftShape, FilmUpdate,
+    GeneralShaft, ShaftError, Supports, condensed_crankshaft, condensed_shaft, coupled_orbits,
+    shaft_forces,
 };
 use sommerfeld_flex::CondensedShaft;
 
@@ -67,13 +68,18 @@ pub(super) fn solve_coupled(
         conditions: conditions(case),
         offset: held.offsets.get(at).copied().unwrap_or([0.0; 2]),
     });
+    let (_, duty) = &cases[0];
+    let settings = OrbitSettings {
+        error_tolerance: COUPLED_ERROR_TOLERANCE * duty.step_error_factor,
+        ..orbit_settings(duty)
+    };
     let side_by_side =
         |updates: &mut [FilmUpdate<'_>]| updates.par_iter_mut().for_each(FilmUpdate::run);
     let request = CoupledRequest {
         shaft: &held.shaft,
         compliance: held.compliance.as_ref(),
         forces: held.forces.as_ref(),
-        settings: &orbit_settings(&cases[0].1),
+        settings: &settings,
         executor: &side_by_side,
     };
     let found = coupled_orbits(
