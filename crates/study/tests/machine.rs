@@ -1,6 +1,7 @@
 //! Runs of whole machines: every bearing at every speed, their files, and runs that are taken up.
 #![allow(
     clippy::unwrap_used,
+    clippy::expect_used,
     clippy::panic,
     reason = "a test may stop at the first surprise"
 )]
