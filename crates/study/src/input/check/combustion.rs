@@ -89,7 +89,10 @@ impl Checker<'_> {
         for (at, speed) in speeds.iter().enumerate() {
             combustion.heat_release = HeatRelease {
                 heat: heats[at],
-                parts: burning.iter().map(|part| (part.share, part.at(at))).collect(),
+                parts: burning
+                    .iter()
+                    .map(|part| (part.share, part.at(at)))
+                    .collect(),
             };
             combustion.gas_exchange.intake_pressure = intakes[at];
             combustion.gas_exchange.intake_temperature = temperatures[at];
