@@ -276,6 +276,9 @@ fn clearance_of_a_big_end() {
     );
 }
 
+/// Machines of the examples, run at one of their speeds.
+mod machines;
+
 #[test]
 fn every_example_is_run_here() {
     let mut studies: Vec<String> = Vec::new();
@@ -301,6 +304,11 @@ fn every_example_is_run_here() {
             "02-big-end-diesel/study.toml",
             "03-one-axis-cycle/short-bearing.toml",
             "03-one-axis-cycle/study.toml",
+            "04-inline-six-diesel/elastic.toml",
+            "04-inline-six-diesel/study.toml",
+            "05-inline-four-gasoline/study.toml",
+            "06-balancer-shaft/determinate.toml",
+            "06-balancer-shaft/study.toml",
             "07-clearance-sweep/study.toml",
         ]
     );
