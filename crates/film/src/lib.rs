@@ -14,6 +14,7 @@ pub mod bearing;
 pub mod cavitation;
 pub mod closed_form;
 pub mod dimensionless;
+pub mod energy;
 mod feed_lines;
 mod film_state;
 pub mod force;
