@@ -6,6 +6,8 @@ pub mod coefficients;
 mod cycle_table;
 mod dense;
 pub mod equilibrium;
+pub mod expansion;
+pub mod heat_balance;
 pub mod load_cycle;
 pub mod motion;
 pub mod orbit;
@@ -19,6 +21,8 @@ pub use balance::IterationRow;
 pub use coefficients::{Coefficients, instant_coefficients};
 pub use cycle_table::{CycleTable, HeldTilt};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
+pub use expansion::{Expansion, PressedShell, ShellFit};
+pub use heat_balance::{FilmHeat, HeatBalanced, HeatPath, HeatTrial};
 pub use load_cycle::{
     CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle, closing_edge,
 };

@@ -27,6 +27,7 @@ pub mod linear;
 pub mod mirror;
 pub mod narrowest;
 pub mod peak;
+pub mod reduced_pressure;
 pub mod reynolds;
 pub mod richardson;
 pub mod shape;
