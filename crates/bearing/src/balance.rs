@@ -156,6 +156,19 @@ pub(crate) struct NewtonLimits {
     pub takes_last_step: bool,
 }
 
+impl NewtonLimits {
+    /// Largest last step over the smallest gap. Taken without another update, it leaves an error of
+    /// the order of its square: films resist with about h^-3, so that twice the square bounds it; four
+    /// times leave room for a film whose cavitated set is about to change.
+    fn last_step(&self) -> f64 {
+        if self.takes_last_step {
+            (self.step / 8.0).sqrt()
+        } else {
+            self.step
+        }
+    }
+}
+
 /// One row of the iteration table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct IterationRow {
@@ -334,7 +347,7 @@ impl Balance {
             };
             let relative_step = length(step, self.arm) / gap.abs();
             let done =
-                linearised.settled && size <= limits.residual && relative_step <= limits.step;
+                linearised.settled && size <= limits.residual && relative_step <= limits.last_step();
             let taken = if done {
                 f64::from(u8::from(limits.takes_last_step))
             } else {
@@ -347,6 +360,9 @@ impl Balance {
                 minimum_gap: gap,
                 settled: linearised.settled,
             });
+            if std::env::var_os("TRACE").is_some() {
+                eprintln!("T {} {:e} {:e} {}", newton.film_updates, relative_step, size, linearised.settled);
+            }
             if done {
                 return Ok(self.finished(newton, linearised, size, add([0.0; 4], taken, step)));
             }
