@@ -28,6 +28,7 @@ pub mod narrowest;
 pub mod peak;
 pub mod reynolds;
 pub mod richardson;
+mod settling;
 pub mod shape;
 mod shape_table;
 pub mod solver;
