@@ -23,6 +23,9 @@ const TOLERATED_GROWTH: f64 = 4.0;
 /// Step reductions in a row before the iterate is kept as it is.
 const LARGEST_BACKTRACKS: usize = 6;
 
+/// The film of a point belongs to a position within this share of the gap from that of the journal.
+const FIELD_ACCURACY: f64 = 1e-4;
+
 /// How rates follow from the unknown position.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Motion {
@@ -156,6 +159,38 @@ pub(crate) struct NewtonLimits {
     pub takes_last_step: bool,
 }
 
+impl NewtonLimits {
+    /// Largest last step over the smallest gap. Taken without another update, it leaves an error of
+    /// the order of its square: films resist with about h^-3, so that twice the square bounds it; four
+    /// times leave room for a film whose cavitated set is about to change.
+    fn last_step(&self) -> f64 {
+        if self.takes_last_step {
+            (self.step / 8.0).sqrt()
+        } else {
+            self.step
+        }
+    }
+
+    /// Largest share of the residual that the last step, over the smallest gap, leaves.
+    fn remainder(&self, step: f64) -> f64 {
+        if self.takes_last_step {
+            (4.0 * step).min(1.0)
+        } else {
+            1.0
+        }
+    }
+
+    /// Largest displacement, over the smallest gap, that a film may still lack whose set has not
+    /// settled. With that of the last step it is the tolerance.
+    fn unsettled(&self) -> f64 {
+        if self.takes_last_step {
+            0.5 * self.step
+        } else {
+            0.0
+        }
+    }
+}
+
 /// One row of the iteration table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct IterationRow {
@@ -178,6 +213,9 @@ pub(crate) struct Balanced {
     pub state: JournalState,
     /// The film's answer there.
     pub linearised: Linearised,
+    /// The film as it is belongs to that state: settled, and not moved on by more than
+    /// [`FIELD_ACCURACY`].
+    pub shows: bool,
     /// Residual over the force scale.
     pub residual: f64,
     /// One row per film update.
@@ -254,6 +292,26 @@ impl Balance {
         }
         let [x, y, end_x, end_y] = solve(matrix, residual.map(|value| -value), self.size())?;
         Some([x, y, end_x / self.arm, end_y / self.arm])
+    }
+
+    /// What the journal would still move by, m, if the film settled where it is: 0 for a settled one,
+    /// and not finite where the film cannot tell.
+    fn lacking(&self, film: &dyn FilmForce, linearised: &Linearised) -> f64 {
+        if linearised.settled {
+            return 0.0;
+        }
+        let Some([x, y, turn_x, turn_y]) = film.unsettled() else {
+            return f64::INFINITY;
+        };
+        let tilting = if self.with_tilt { 1.0 / self.arm } else { 0.0 };
+        let sizes = [x, y, tilting * turn_x, tilting * turn_y];
+        let moves = (0..self.size()).map(|axis| {
+            let mut force = [0.0; 4];
+            force[axis] = sizes[axis];
+            let step = self.resisted_step(force, &linearised.tangent, 0.0);
+            step.map_or(f64::INFINITY, |step| length(step, self.arm))
+        });
+        moves.sum()
     }
 
     /// Smallest gap at a position and at the end of its step.
@@ -333,8 +391,10 @@ impl Balance {
                 break;
             };
             let relative_step = length(step, self.arm) / gap.abs();
-            let done =
-                linearised.settled && size <= limits.residual && relative_step <= limits.step;
+            let lacking = self.lacking(film, &linearised) / gap.abs();
+            let done = lacking <= limits.unsettled()
+                && size * limits.remainder(relative_step) <= limits.residual
+                && relative_step <= limits.last_step();
             let taken = if done {
                 f64::from(u8::from(limits.takes_last_step))
             } else {
@@ -348,7 +408,9 @@ impl Balance {
                 settled: linearised.settled,
             });
             if done {
-                return Ok(self.finished(newton, linearised, size, add([0.0; 4], taken, step)));
+                let shows = linearised.settled && taken * relative_step <= FIELD_ACCURACY;
+                let step = add([0.0; 4], taken, step);
+                return Ok(self.finished(newton, linearised, size, step, shows));
             }
             newton.advance(size, add([0.0; 4], taken, step));
         }
@@ -362,6 +424,7 @@ impl Balance {
         mut linearised: Linearised,
         residual: f64,
         step: Coordinates,
+        shows: bool,
     ) -> Balanced {
         let position = add(newton.position, 1.0, step);
         let before = self.motion.rate(newton.position);
@@ -384,6 +447,7 @@ impl Balance {
         Balanced {
             state: self.state(position),
             linearised,
+            shows,
             residual,
             table: newton.table,
             film_updates: newton.film_updates,
@@ -481,6 +545,7 @@ impl Newton {
         Ok(Balanced {
             state,
             linearised,
+            shows: true,
             residual,
             table: self.table,
             film_updates: self.film_updates + 1,

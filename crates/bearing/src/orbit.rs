@@ -407,7 +407,7 @@ impl<'a> Run<'a> {
             } else {
                 self.substeps.is_last()
             };
-            let trial = if solved {
+            let mut trial = if solved {
                 trial
             } else {
                 self.failed_since = true;
@@ -421,6 +421,10 @@ impl<'a> Run<'a> {
             let at_end = self.substeps.at_end();
             if shows || (at_end && !is_published) {
                 is_published = true;
+                if solved {
+                    self.stepper.refresh(self.film, &mut trial)?;
+                    self.failed_since |= trial.outcome != Outcome::Converged;
+                }
                 let stopped = self.publish_step(&trial, number, observer);
                 if stopped.is_some() {
                     self.film.accept_step();

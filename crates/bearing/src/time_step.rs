@@ -45,6 +45,8 @@ pub(crate) struct Trial {
     pub end: Moving,
     pub state: JournalState,
     pub linearised: Linearised,
+    /// The film as it is belongs to the state.
+    pub film_shows: bool,
     /// Estimated error of the position over the smallest gap.
     pub error: f64,
     pub outcome: Outcome,
@@ -237,6 +239,29 @@ impl Stepper<'_> {
         Ok(trial)
     }
 
+    /// Brings the film of a point that is to be shown to the state of the point.
+    pub(crate) fn refresh(
+        &mut self,
+        film: &mut dyn FilmForce,
+        trial: &mut Trial,
+    ) -> Result<(), FilmError> {
+        if trial.film_shows || self.has_history {
+            return Ok(());
+        }
+        let conditions = self.supply.at(trial.end.crank_angle);
+        match film.look(&trial.state, Step::Steady, &conditions) {
+            Ok((seen, updates)) => {
+                self.film_solves += updates;
+                trial.linearised = seen;
+                trial.outcome = seen.outcome;
+            }
+            // So close to contact what the film said last stands.
+            Err(FilmError::Contact { .. }) => {}
+            Err(error) => return Err(error),
+        }
+        Ok(())
+    }
+
     /// Mean and change per time of a prescribed tilt over a step of `angle` (rad).
     fn mean_tilt(&self, from: f64, angle: f64) -> Option<HeldTilt> {
         let start = self.table.held_tilt(from)?.tilt;
@@ -302,6 +327,7 @@ impl Stepper<'_> {
             },
             state: balanced.state,
             linearised: balanced.linearised,
+            film_shows: balanced.shows,
             error: 0.0,
             outcome: balanced.outcome,
         }

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{CONDITIONS, plain_bearing, table};
+use common::{CONDITIONS, diesel_cycle, plain_bearing, table};
 use sommerfeld_bearing::{
     CycleTilt, EquilibriumRequest, EquilibriumSettings, LoadCycle, LoadPoint, OrbitSettings,
     find_equilibrium, journal_orbit,
@@ -56,28 +56,6 @@ fn grooved_bearing_comes_to_rest() {
         let [fx, fy] = found.reaction.force();
         assert!(fx.abs() < 1e-4 && (fy - 8000.0).abs() < 1e-4);
         assert!(found.summary.mass_balance_relative < 1e-8);
-    }
-}
-
-/// The loads of a diesel big end.
-fn diesel_cycle() -> LoadCycle {
-    let points: Vec<LoadPoint> = table("../examples/02-big-end-diesel/loads.csv")
-        .iter()
-        .map(|row| LoadPoint {
-            crank_angle: row[0].to_radians(),
-            load: [row[1], row[2]],
-            moment: [0.0; 2],
-            journal_speed: row[3],
-            shell_speed: 0.0,
-        })
-        .collect();
-    LoadCycle {
-        points,
-        period: 4.0 * PI,
-        engine_speed: 2000.0 * PI / 30.0,
-        journal_mass: 0.0,
-        tilt: CycleTilt::Aligned,
-        feed_pressures: Vec::new(),
     }
 }
 

@@ -38,6 +38,10 @@ pub(crate) struct FilmState {
     pub(crate) flow_scale: f64,
     /// Adjoints of force and moment, per cell.
     pub(crate) adjoints: Vec<Lanes>,
+    /// States of the cells that were solved, before the set moved on.
+    pub(crate) solved_cells: Vec<Cell>,
+    /// What the last reaction lacks to that of the settled film, N and N m, where it is known.
+    pub(crate) unsettled: Option<[f64; 4]>,
     /// Content theta H at the last accepted step; empty before the first.
     pub(crate) content: Vec<f64>,
     /// Content that an implicit step starts from.
@@ -97,6 +101,8 @@ impl FilmState {
             excess: zero.clone(),
             flow_scale: 0.0,
             adjoints: vec![[0.0; 4]; n * m],
+            solved_cells: vec![Cell::Full; n * m],
+            unsettled: None,
             content: Vec::with_capacity(n * m),
             old_content: zero.clone(),
             after: 0.0,
@@ -313,6 +319,11 @@ impl FilmState {
         let cavitation = bearing.cavitation_pressure;
         self.lines
             .account(&self.film_flows, units, cavitation, &mut self.feed_flows);
+    }
+
+    /// Keeps the states of the cells before the set moves on.
+    pub(crate) fn keep_solved_cells(&mut self) {
+        self.solved_cells.copy_from_slice(&self.set.cells);
     }
 
     pub(crate) fn advance_set(&mut self, closure: &dyn CavitationModel) -> usize {

@@ -43,18 +43,30 @@ pub trait FilmForce {
         step: Step,
         conditions: &Conditions<'_>,
     ) -> Result<Linearised, FilmError> {
-        let limit = self.capabilities().iteration_limit;
-        for _ in 1..limit {
-            let linearised = self.linearise(state, step, conditions)?;
-            if linearised.settled || linearised.outcome != Outcome::Converged {
-                return Ok(linearised);
-            }
-        }
-        let mut last = self.linearise(state, step, conditions)?;
-        if !last.settled && last.outcome == Outcome::Converged {
-            last.outcome = Outcome::NotConverged;
-        }
-        Ok(last)
+        let (seen, _) = settled(self, state, step, conditions)?;
+        Ok(seen)
+    }
+
+    /// Where the last update did not settle: an estimate of the size of what its reaction, N and N m,
+    /// lacks to that of the settled film. A caller to whom that is little may go on without another
+    /// update; fields and summary are those of the settled film only after [`FilmForce::look`].
+    /// `None` where the model cannot tell.
+    fn unsettled(&self) -> Option<[f64; 4]> {
+        None
+    }
+
+    /// [`FilmForce::react`] for a caller that asks for no tangent, which may be zero: fields and summary
+    /// of the settled film, with the number of updates it took.
+    ///
+    /// # Errors
+    /// As [`FilmForce::linearise`].
+    fn look(
+        &mut self,
+        state: &JournalState,
+        step: Step,
+        conditions: &Conditions<'_>,
+    ) -> Result<(Linearised, usize), FilmError> {
+        settled(self, state, step, conditions)
     }
 
     /// Integrals, extremes, flows and power of the film as last linearised.
@@ -90,6 +102,26 @@ pub trait FilmForce {
 
     /// Puts back a memory taken by [`FilmForce::history`] of the same model.
     fn restore(&mut self, _history: &FilmHistory) {}
+}
+
+/// Iterates [`FilmForce::linearise`] at a fixed state until it is settled; with the number of updates.
+fn settled<F: FilmForce + ?Sized>(
+    film: &mut F,
+    state: &JournalState,
+    step: Step,
+    conditions: &Conditions<'_>,
+) -> Result<(Linearised, usize), FilmError> {
+    let limit = film.capabilities().iteration_limit;
+    let mut updates = 1;
+    let mut seen = film.linearise(state, step, conditions)?;
+    while !seen.settled && seen.outcome == Outcome::Converged && updates < limit {
+        seen = film.linearise(state, step, conditions)?;
+        updates += 1;
+    }
+    if !seen.settled && seen.outcome == Outcome::Converged {
+        seen.outcome = Outcome::NotConverged;
+    }
+    Ok((seen, updates))
 }
 
 /// What a film model can do.

@@ -557,14 +557,26 @@ impl SolvedFilm<'_> {
     pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Lanes]) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
-            let [cos, sin] = self.angles.means[i];
             for j in 0..m {
                 let k = i * m + j;
-                let area = if loaded(k) { self.grid.area(i, j) } else { 0.0 };
-                let lever = area * self.grid.axial[j];
-                weights[k] = [-cos * area, -sin * area, sin * lever, -cos * lever];
+                weights[k] = if loaded(k) {
+                    self.output_weight(k)
+                } else {
+                    [0.0; 4]
+                };
             }
         }
+    }
+
+    /// Derivative of force and moment with respect to P of a cell.
+    #[must_use]
+    pub fn output_weight(&self, cell: usize) -> Lanes {
+        let m = self.grid.n_axial();
+        let (i, j) = (cell / m, cell % m);
+        let [cos, sin] = self.angles.means[i];
+        let area = self.grid.area(i, j);
+        let lever = area * self.grid.axial[j];
+        [-cos * area, -sin * area, sin * lever, -cos * lever]
     }
 }
 

@@ -30,6 +30,7 @@ pub mod peak;
 pub mod reduced_pressure;
 pub mod reynolds;
 pub mod richardson;
+mod settling;
 pub mod shape;
 mod shape_table;
 pub mod solver;

@@ -24,6 +24,7 @@ use crate::journal_state::JournalState;
 use crate::mirror::{Extent, half_of};
 use crate::narrowest::GapSearch;
 use crate::reynolds::{Cell, Storage};
+use crate::settling::SetChange;
 use crate::supply::mark_fed_cells;
 use crate::surfaces::Surfaces;
 use sommerfeld_oil::Lubricant;
@@ -42,6 +43,13 @@ pub struct FilmSolver {
     film: FilmState,
     /// The same bearing on half the cells: where a cold start gets its set from.
     coarse: Option<Box<FilmSolver>>,
+}
+
+/// What an update is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    Reaction,
+    Tangent,
 }
 
 impl FilmSolver {
@@ -249,6 +257,94 @@ impl FilmSolver {
         Ok(())
     }
 
+    /// Before an update: what is refused, a film that is not there, the set of a cold film; stages 1 to
+    /// 3 at the state.
+    fn enter(
+        &mut self,
+        state: &JournalState,
+        step: Step,
+        conditions: &Conditions<'_>,
+    ) -> Result<Option<Linearised>, FilmError> {
+        self.check(state, step)?;
+        if step == Step::Steady && self.is_starved() {
+            return Ok(Some(Linearised::without_film(Outcome::Starved)));
+        }
+        if !self.film.is_warm {
+            self.start_cold(state, conditions)?;
+        }
+        let turned = self.frame.turn(state);
+        self.prepare(&self.frame.to_grid(state, turned), step, conditions);
+        self.film.state = *state;
+        Ok(None)
+    }
+
+    /// Stages 4 to 6 at a state that was entered.
+    fn update(&mut self, state: &JournalState, step: Step, wanted: Wanted) -> Linearised {
+        let turned = self.frame.turn(state);
+        let local = self.frame.to_grid(state, turned);
+        self.film.iterations += 1;
+        self.film.unsettled = None;
+        if !self.film.solve(self.closure.as_ref()) {
+            return Linearised::without_film(Outcome::NoSolution);
+        }
+        self.film.account_feeds(&self.bearing, self.extent);
+        let reaction = self.extent.reaction(self.solved().reaction(&local));
+        let tangent = match wanted {
+            Wanted::Tangent => self.extent.tangent(self.tangent(step)),
+            Wanted::Reaction => Tangent::default(),
+        };
+        let (reaction, tangent) = self.frame.from_grid(&local, turned, reaction, tangent);
+        self.film.reaction = reaction;
+        self.film
+            .write_fields(&self.bearing, &self.grid, self.extent, turned);
+        self.film.keep_solved_cells();
+        let moved = self.film.advance_set(self.closure.as_ref());
+        let settled = moved == 0;
+        if !settled && wanted == Wanted::Tangent {
+            self.film.unsettled = self.lacking(moved);
+        }
+        Linearised {
+            reaction,
+            tangent,
+            settled,
+            outcome: if settled && !self.keeps_conditions() {
+                Outcome::NotConverged
+            } else {
+                Outcome::Converged
+            },
+        }
+    }
+
+    /// What the reaction lacks to that of the set that comes next, N and N m; `None` where more than
+    /// cells changed, or where a change is not one of a pressure alone.
+    fn lacking(&self, moved: usize) -> Option<[f64; 4]> {
+        let film = &self.film;
+        if self.closure.conserves_mass() || self.closure.cuts_pressures() {
+            return None;
+        }
+        let change = SetChange {
+            operator: &film.operator,
+            solved: &film.solved_cells,
+            next: &film.set,
+            pressure: &film.pressure,
+            excess: &film.excess,
+            adjoints: &film.adjoints,
+        };
+        if change.count() != moved {
+            return None;
+        }
+        let solved = self.solved();
+        let [x, y, turn_x, turn_y] = change.outputs(|k| solved.output_weight(k));
+        let force = self.extent.images() * film.units.pressure * film.units.area;
+        let moment = force * film.units.radius;
+        // The frame of the grid may be turned against that of the shell.
+        let (size, turn) = match self.frame {
+            Frame::Shell => ([x, y], [turn_x, turn_y]),
+            Frame::LineOfCentres => ([x.hypot(y); 2], [turn_x.hypot(turn_y); 2]),
+        };
+        Some([size[0] * force, size[1] * force, turn[0] * moment, turn[1] * moment])
+    }
+
     /// Stage 1 to 3. `state` is in the frame of the grid.
     fn prepare(&mut self, state: &JournalState, step: Step, conditions: &Conditions<'_>) {
         let film = &mut self.film;
@@ -363,39 +459,39 @@ impl FilmForce for FilmSolver {
         step: Step,
         conditions: &Conditions<'_>,
     ) -> Result<Linearised, FilmError> {
-        self.check(state, step)?;
-        if step == Step::Steady && self.is_starved() {
-            return Ok(Linearised::without_film(Outcome::Starved));
+        if let Some(without) = self.enter(state, step, conditions)? {
+            return Ok(without);
         }
-        if !self.film.is_warm {
-            self.start_cold(state, conditions)?;
+        Ok(self.update(state, step, Wanted::Tangent))
+    }
+
+    fn look(
+        &mut self,
+        state: &JournalState,
+        step: Step,
+        conditions: &Conditions<'_>,
+    ) -> Result<(Linearised, usize), FilmError> {
+        if let Some(without) = self.enter(state, step, conditions)? {
+            return Ok((without, 1));
         }
-        let turned = self.frame.turn(state);
-        let local = self.frame.to_grid(state, turned);
-        self.prepare(&local, step, conditions);
-        self.film.iterations += 1;
-        self.film.state = *state;
-        if !self.film.solve(self.closure.as_ref()) {
-            return Ok(Linearised::without_film(Outcome::NoSolution));
+        let mut updates = 1;
+        let mut seen = self.update(state, step, Wanted::Reaction);
+        while !seen.settled && seen.outcome == Outcome::Converged {
+            if updates == self.capabilities().iteration_limit {
+                seen.outcome = Outcome::NotConverged;
+                break;
+            }
+            // What the film left its feeds may have changed.
+            self.film
+                .place_feeds(&self.bearing, self.extent, conditions);
+            seen = self.update(state, step, Wanted::Reaction);
+            updates += 1;
         }
-        self.film.account_feeds(&self.bearing, self.extent);
-        let reaction = self.extent.reaction(self.solved().reaction(&local));
-        let tangent = self.extent.tangent(self.tangent(step));
-        let (reaction, tangent) = self.frame.from_grid(&local, turned, reaction, tangent);
-        self.film.reaction = reaction;
-        self.film
-            .write_fields(&self.bearing, &self.grid, self.extent, turned);
-        let settled = self.film.advance_set(self.closure.as_ref()) == 0;
-        Ok(Linearised {
-            reaction,
-            tangent,
-            settled,
-            outcome: if settled && !self.keeps_conditions() {
-                Outcome::NotConverged
-            } else {
-                Outcome::Converged
-            },
-        })
+        Ok((seen, updates))
+    }
+
+    fn unsettled(&self) -> Option<[f64; 4]> {
+        self.film.unsettled
     }
 
     fn summary(&self) -> FilmSummary {

@@ -1,7 +1,12 @@
 //! What the tests of this crate share.
 #![allow(dead_code, clippy::unwrap_used)]
 
-use sommerfeld_film::{Bearing, Cavitation, Conditions, Ends, FilmShear, Inlet, Shape};
+use sommerfeld_bearing::{CycleTilt, LoadCycle, LoadPoint};
+use sommerfeld_film::{
+    Bearing, Carrier, Cavitation, Conditions, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
+    Shape,
+};
+use std::f64::consts::PI;
 
 pub const CONDITIONS: Conditions<'static> = Conditions {
     temperature: 373.0,
@@ -52,4 +57,44 @@ pub fn text_table(path: &str) -> Vec<Vec<String>> {
         .skip(1)
         .map(|line| line.split(',').map(|cell| cell.trim().to_owned()).collect())
         .collect()
+}
+
+/// Bearing of a diesel big end, fed by a hole of 6 mm in the journal.
+pub fn diesel_big_end(cavitation: Cavitation) -> Bearing {
+    let mut bearing = plain_bearing(0.072, 0.030, 36e-6);
+    bearing.cavitation = cavitation;
+    if cavitation == Cavitation::MassConserving {
+        bearing.film_shear = FilmShear::FilmFraction;
+    }
+    bearing.feeds.push(Feed {
+        shape: FeedShape::Hole { diameter: 6e-3 },
+        carried_by: Carrier::Journal,
+        angle: 0.5 * PI,
+        position: 0.0,
+        pressure: 5e5,
+        line: FeedLine::Direct,
+    });
+    bearing
+}
+
+/// Its loads.
+pub fn diesel_cycle() -> LoadCycle {
+    let points: Vec<LoadPoint> = table("../examples/02-big-end-diesel/loads.csv")
+        .iter()
+        .map(|row| LoadPoint {
+            crank_angle: row[0].to_radians(),
+            load: [row[1], row[2]],
+            moment: [0.0; 2],
+            journal_speed: row[3],
+            shell_speed: 0.0,
+        })
+        .collect();
+    LoadCycle {
+        points,
+        period: 4.0 * PI,
+        engine_speed: 2000.0 * PI / 30.0,
+        journal_mass: 0.0,
+        tilt: CycleTilt::Aligned,
+        feed_pressures: Vec::new(),
+    }
 }

@@ -111,6 +111,13 @@ impl FilmSet {
         }
     }
 
+    /// Opens all ends; returns how many were closed.
+    fn open_ends(&mut self) -> usize {
+        let closed = self.end_open.iter().filter(|open| !**open).count();
+        self.end_open.fill(true);
+        closed
+    }
+
     /// Opens ends that oil wants to leave through and closes those that would draw in air.
     fn update_ends(&mut self, operator: &Operator, pressure: &[f64], tolerance: f64) -> usize {
         let Axial::Air(air) = operator.axial else {

@@ -4,7 +4,7 @@
 
 use super::{CavitationModel, FilmSet, RupturedRow, assemble_balance};
 use crate::linear::RingMatrix;
-use crate::reynolds::{Cell, Operator};
+use crate::reynolds::{Axial, Cell, Operator};
 
 /// The closure after Swift and Stieber, often named after Reynolds.
 #[derive(Debug, Clone, Copy)]
@@ -47,7 +47,12 @@ impl CavitationModel for Reynolds {
         tolerance: f64,
         set: &mut FilmSet,
     ) -> usize {
-        let mut moved = set.update_ends(operator, pressure, tolerance);
+        // No pressure is below that of cavitation: against air at or below it, oil leaves every end,
+        // and one that closed beside a cell about to rupture would cost an update when it fills.
+        let mut moved = match operator.axial {
+            Axial::Air(air) if air <= 0.0 => set.open_ends(),
+            _ => set.update_ends(operator, pressure, tolerance),
+        };
         for (k, cell) in set.cells.iter_mut().enumerate() {
             let next = match *cell {
                 Cell::Full if pressure[k] < 0.0 => Cell::Ruptured,
