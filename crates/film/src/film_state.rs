@@ -11,6 +11,7 @@ use crate::integrals::Units;
 use crate::journal_state::JournalState;
 use crate::linear::{Lanes, RingFactor, RingMatrix};
 use crate::mirror::Extent;
+use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Around, Axial, Cell, Operator};
 use sommerfeld_oil::Lubricant;
 
@@ -31,7 +32,14 @@ pub(crate) struct FilmState {
     pub(crate) rhs: Vec<f64>,
     pub(crate) solution: Vec<f64>,
     pub(crate) correction: Vec<f64>,
+    /// Reduced pressure per cell, 1/s: what drives the flows.
     pub(crate) pressure: Vec<f64>,
+    /// Pressure per cell, 1/s, and its derivative by the reduced one, where they differ.
+    pub(crate) stiffened: Vec<[f64; 2]>,
+    /// Relation of the two at the film's temperature.
+    pub(crate) reduced: ReducedPressure,
+    /// A cell asks for more than the limit of the reduced pressure.
+    pub(crate) exceeds_limit: bool,
     pub(crate) film_fraction: Vec<f64>,
     pub(crate) excess: Vec<f64>,
     /// Largest flow of the last balance, 1/s.
@@ -97,6 +105,9 @@ impl FilmState {
             solution: zero.clone(),
             correction: zero.clone(),
             pressure: zero.clone(),
+            stiffened: Vec::new(),
+            reduced: ReducedPressure::Same,
+            exceeds_limit: false,
             film_fraction: zero.clone(),
             excess: zero.clone(),
             flow_scale: 0.0,
@@ -123,9 +134,30 @@ impl FilmState {
         }
     }
 
-    /// Pressure of the film unit for a gauge pressure in Pa.
+    /// Reduced pressure of the film unit for a gauge pressure in Pa.
     fn relative_pressure(&self, bearing: &Bearing, pressure: f64) -> f64 {
-        (pressure - bearing.cavitation_pressure) / self.units.pressure
+        self.reduced.reduced(pressure - bearing.cavitation_pressure) / self.units.pressure
+    }
+
+    /// The pressure (1/s) of a cell's unknown, or of its reduced pressure.
+    pub(crate) fn stiffen(&mut self) {
+        self.exceeds_limit = false;
+        if self.reduced == ReducedPressure::Same {
+            self.stiffened.clear();
+            return;
+        }
+        let unit = self.units.pressure;
+        self.stiffened.resize(self.pressure.len(), [0.0, 1.0]);
+        for (stiffened, reduced) in self.stiffened.iter_mut().zip(&self.pressure) {
+            *stiffened = match self.reduced.pressure(reduced * unit) {
+                Some((pressure, slope)) => [pressure / unit, slope],
+                None => {
+                    self.exceeds_limit = true;
+                    let (pressure, slope) = self.reduced.highest();
+                    [pressure / unit, slope]
+                }
+            };
+        }
     }
 
     pub(crate) fn place_feeds(
@@ -207,6 +239,7 @@ impl FilmState {
         if self.lines.has_unknowns() && !closure.cuts_pressures() {
             self.refine_lines(closure);
         }
+        self.stiffen();
         self.solution.iter().all(|x| x.is_finite())
     }
 
@@ -358,7 +391,11 @@ impl FilmState {
         }
         let m = grid.n_axial();
         let units = &self.units;
-        let pressure = |k: usize| self.pressure[k] * units.pressure + bearing.cavitation_pressure;
+        let true_pressure = |k: usize| match self.stiffened.get(k) {
+            Some([pressure, _]) => *pressure,
+            None => self.pressure[k],
+        };
+        let pressure = |k: usize| true_pressure(k) * units.pressure + bearing.cavitation_pressure;
         extent.unfold(m, pressure, &mut fields.pressure);
         extent.unfold(m, |k| self.film_fraction[k], &mut fields.film_fraction);
         let thickness = |k: usize| self.gap.mean[k] * units.clearance;

@@ -76,8 +76,10 @@ pub struct SolvedFilm<'a> {
     pub operator: &'a Operator,
     /// The set of the solution.
     pub set: &'a FilmSet,
-    /// P - P_cav per cell, 1/s.
+    /// Reduced pressure per cell beyond cavitation pressure, 1/s: drives the flows.
     pub pressure: &'a [f64],
+    /// P - P_cav per cell, 1/s, and its derivative by the reduced pressure; empty where they are one.
+    pub stiffened: &'a [[f64; 2]],
     /// Film fraction per cell.
     pub film_fraction: &'a [f64],
     /// Entering beyond leaving per cell, 1/s.
@@ -87,6 +89,22 @@ pub struct SolvedFilm<'a> {
 }
 
 impl SolvedFilm<'_> {
+    /// P - P_cav of a cell, 1/s: what loads the journal.
+    #[must_use]
+    #[inline]
+    pub fn loading(&self, cell: usize) -> f64 {
+        match self.stiffened.get(cell) {
+            Some([pressure, _]) => *pressure,
+            None => self.pressure[cell],
+        }
+    }
+
+    /// Derivative of the same by the reduced pressure.
+    #[inline]
+    fn stiffening(&self, cell: usize) -> f64 {
+        self.stiffened.get(cell).map_or(1.0, |[_, slope]| *slope)
+    }
+
     /// Force, moment and torques on the journal, in the frame of the grid.
     #[must_use]
     pub fn reaction(&self, state: &JournalState) -> Reaction {
@@ -96,7 +114,7 @@ impl SolvedFilm<'_> {
             let [cos, sin] = self.angles.means[i];
             let (mut sum, mut lever) = (0.0, 0.0);
             for j in 0..m {
-                let load = self.pressure[i * m + j] * self.grid.axial_widths[j];
+                let load = self.loading(i * m + j) * self.grid.axial_widths[j];
                 sum += load;
                 lever += load * self.grid.axial[j];
             }
@@ -248,7 +266,7 @@ impl SolvedFilm<'_> {
             return 0.0;
         }
         let m = self.grid.n_axial();
-        let terms = self.pressure.iter().enumerate();
+        let terms = (0..self.pressure.len()).map(|k| (k, self.loading(k)));
         let sum: f64 = terms
             .map(|(k, p)| p * self.surfaces.journal_rise(k, m) * self.grid.axial_widths[k % m])
             .sum();
@@ -291,7 +309,7 @@ impl SolvedFilm<'_> {
     /// Peak of the surface through the highest cell and those around it, Pa.
     fn peak_pressure(&self) -> Extreme {
         let highest = (0..self.pressure.len())
-            .max_by(|&a, &b| self.pressure[a].total_cmp(&self.pressure[b]))
+            .max_by(|&a, &b| self.loading(a).total_cmp(&self.loading(b)))
             .unwrap_or(0);
         let (i, j) = (highest / self.grid.n_axial(), highest % self.grid.n_axial());
         let peak = self
@@ -299,7 +317,7 @@ impl SolvedFilm<'_> {
             .peak()
             .unwrap_or_else(|| self.separate_peak(i, j));
         Extreme {
-            value: (self.pressure[highest] + peak.rise) * self.units.pressure
+            value: (self.loading(highest) + peak.rise) * self.units.pressure
                 + self.bearing.cavitation_pressure,
             angle: self.grid.around[i] + peak.around,
             axial: (self.grid.axial[j] + peak.axial) * self.units.radius,
@@ -331,7 +349,7 @@ impl SolvedFilm<'_> {
             for (pressure, column) in window.pressure[row].iter_mut().zip(columns) {
                 let Some((column, _)) = column else { continue };
                 if self.set.cells[i * m + column] == Cell::Full {
-                    *pressure = self.pressure[i * m + column];
+                    *pressure = self.loading(i * m + column);
                 }
             }
         };
@@ -360,10 +378,10 @@ impl SolvedFilm<'_> {
     fn separate_peak(&self, i: usize, j: usize) -> Peak {
         let m = self.grid.n_axial();
         let highest = i * m + j;
-        let top = self.pressure[highest];
+        let top = self.loading(highest);
         let around = match (self.operator.west(i, j), self.operator.east(i, j)) {
             (Some(west), Some(east)) => parabola_peak(
-                [self.pressure[west], top, self.pressure[east]],
+                [self.loading(west), top, self.loading(east)],
                 self.distances_around(i),
             ),
             _ => (0.0, 0.0),
@@ -373,7 +391,7 @@ impl SolvedFilm<'_> {
             let before = if j == 0 {
                 top
             } else {
-                self.pressure[highest - 1]
+                self.loading(highest - 1)
             };
             let width = self.grid.axial_widths[j];
             let before_width = if j == 0 { width } else { z[j] - z[j - 1] };
@@ -382,7 +400,7 @@ impl SolvedFilm<'_> {
             (0.0, 0.0)
         } else {
             parabola_peak(
-                [self.pressure[highest - 1], top, self.pressure[highest + 1]],
+                [self.loading(highest - 1), top, self.loading(highest + 1)],
                 [z[j] - z[j - 1], z[j + 1] - z[j]],
             )
         };

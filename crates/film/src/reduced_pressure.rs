@@ -82,6 +82,16 @@ impl ReducedPressure {
         }
     }
 
+    /// The last pressure (Pa) of the table with its slope: what a film beyond the limit is given until it
+    /// has settled.
+    #[must_use]
+    pub fn highest(&self) -> (f64, f64) {
+        match self {
+            Self::Same => (f64::MAX, 1.0),
+            Self::Table(table) => table.highest(),
+        }
+    }
+
     /// Reduced pressure (Pa) of a pressure (Pa), by the same cubics.
     #[must_use]
     pub fn reduced(&self, pressure: f64) -> f64 {
@@ -198,6 +208,14 @@ impl Table {
         }
         let (value, slope) = self.cubic(index, place - index as f64);
         Some((value, slope / (left * self.limit)))
+    }
+
+    fn highest(&self) -> (f64, f64) {
+        // Far enough from the end that the slope is that of a film that still flows.
+        let place = 0.25 * INTERVALS as f64;
+        let (value, slope) = self.cubic(place as usize, 0.0);
+        let left = (-0.25 * REACH).exp();
+        (value, slope / (left * self.limit))
     }
 
     /// Pressure and its slope by s in an interval, at a share `t` of it.
