@@ -13,23 +13,30 @@
 pub mod bearing;
 pub mod cavitation;
 pub mod closed_form;
+pub mod contact;
+mod contact_table;
 pub mod dimensionless;
 pub mod energy;
 mod feed_lines;
 mod film_state;
+pub mod finish;
+pub mod flow_factors;
 pub mod force;
 pub mod frame;
 pub mod gap;
 pub mod grid;
+mod height_integrals;
 pub mod integrals;
 pub mod journal_state;
 pub mod linear;
 pub mod mirror;
 pub mod narrowest;
+pub mod passage;
 pub mod peak;
 pub mod reduced_pressure;
 pub mod reynolds;
 pub mod richardson;
+pub mod roughness;
 mod settling;
 pub mod shape;
 mod shape_table;
@@ -37,15 +44,14 @@ pub mod solver;
 pub mod supply;
 pub mod surfaces;
 
-pub use bearing::{
-    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
-};
+pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet};
 pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
-pub use force::{
-    Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
-    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,
-};
-pub use grid::Grid;
-pub use journal_state::JournalState;
+pub use contact::{ContactLaw, ContactTable, GreenwoodTripp};
+pub use finish::{Finish, RoughFinish};
+pub use flow_factors::{FlowFactors};
+pub use force::{Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary, Linearised, Outcome, Reaction, Step, Tangent};
+pub use grid::{Grid};
+pub use journal_state::{JournalState};
+pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
-pub use solver::FilmSolver;
+pub use solver::{FilmSolver};
