@@ -23,8 +23,9 @@ const TOLERATED_GROWTH: f64 = 4.0;
 /// Step reductions in a row before the iterate is kept as it is.
 const LARGEST_BACKTRACKS: usize = 6;
 
-/// The film of a point belongs to a position within this share of the gap from that of the journal.
-const FIELD_ACCURACY: f64 = 1e-4;
+/// How far the journal may be from where its film was last updated, over the step tolerance, for the
+/// film to show a point: its velocity and power are off by that over the duration.
+const FIELD_ACCURACY: f64 = 0.1;
 
 /// How rates follow from the unknown position.
 #[derive(Debug, Clone, Copy)]
@@ -213,7 +214,7 @@ pub(crate) struct Balanced {
     pub state: JournalState,
     /// The film's answer there.
     pub linearised: Linearised,
-    /// The film as it is belongs to that state: settled, and not moved on by more than
+    /// The film as it is belongs to that state: settled, and moved on by no more than
     /// [`FIELD_ACCURACY`].
     pub shows: bool,
     /// Residual over the force scale.
@@ -408,7 +409,7 @@ impl Balance {
                 settled: linearised.settled,
             });
             if done {
-                let shows = linearised.settled && taken * relative_step <= FIELD_ACCURACY;
+                let shows = linearised.settled && taken * relative_step <= FIELD_ACCURACY * limits.step;
                 let step = add([0.0; 4], taken, step);
                 return Ok(self.finished(newton, linearised, size, step, shows));
             }

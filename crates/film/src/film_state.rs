@@ -288,7 +288,7 @@ impl FilmState {
     /// Adds what the unknown pressures of feeds behind lines do to the film solved without them.
     fn solve_lines(&mut self, closure: &dyn CavitationModel) -> bool {
         let conserves = closure.conserves_mass();
-        let tolerance = ROUND_OFF * self.flow_unit();
+        let tolerance = ROUND_OFF * self.operator.flow_unit;
         let (operator, set) = (&self.operator, &mut self.set);
         self.lines.assemble(operator, set, &self.fed_by, conserves);
         let (factor, film) = (&mut self.factor, &mut self.solution);
@@ -304,7 +304,7 @@ impl FilmState {
     fn refine(&mut self) {
         const LARGEST_RESIDUAL: f64 = 1e-12;
         const STEPS: usize = 2;
-        let bound = LARGEST_RESIDUAL * self.flow_unit();
+        let bound = LARGEST_RESIDUAL * self.operator.flow_unit;
         for _ in 0..STEPS {
             let residual = self
                 .matrix
@@ -319,21 +319,10 @@ impl FilmState {
         }
     }
 
-    /// Largest flow that drives the film: dragged along, stored or released, 1/s.
-    fn flow_unit(&self) -> f64 {
-        let operator = &self.operator;
-        let dragged = operator
-            .transport
-            .iter()
-            .fold(0.0_f64, |a, b| a.max(b.abs()));
-        let stored = operator.storage.iter().zip(&operator.stored);
-        stored.fold(dragged, |a, (new, old)| a.max((new - old).abs()))
-    }
-
     /// Puts values that round-off alone keeps beyond their bound onto the bound, so that it decides
     /// no cell: both conditions hold with equality there.
     fn snap_round_off(&mut self) {
-        let scale = ROUND_OFF * self.flow_unit();
+        let scale = ROUND_OFF * self.operator.flow_unit;
         for (k, x) in self.solution.iter_mut().enumerate() {
             let weight = self.matrix.centre[k];
             match self.set.cells[k] {

@@ -446,22 +446,19 @@ impl SolvedFilm<'_> {
 
     fn sensitivity_around(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
-        let last = if self.operator.west(0, 0).is_some() {
-            n
-        } else {
-            n + 1
-        };
+        let is_ring = self.operator.west(0, 0).is_some();
+        let last = if is_ring { n } else { n + 1 };
         let mut steps = self.gap.steps.as_slice();
         for i in 0..last {
-            let trig = self.angles.faces[i];
+            let before = match i {
+                0 => is_ring.then_some(n - 1),
+                _ => Some(i - 1),
+            };
+            let behind = (i < n).then_some(i);
+            let mut sums = StationSums::default();
             for j in 0..m {
                 let face = i * m + j;
-                let before = if i == 0 {
-                    self.operator.west(0, j)
-                } else {
-                    Some(face - m)
-                };
-                let behind = if i == n { None } else { Some(face) };
+                let [before, behind] = [before, behind].map(|i| i.map(|i| i * m + j));
                 let (p_before, theta_before) =
                     self.operator
                         .beside(before, 0, self.pressure, self.film_fraction);
@@ -478,46 +475,38 @@ impl SolvedFilm<'_> {
                 let conducted = conducting * self.operator.conductance_around[face];
                 let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
                 let value = |cell: Option<usize>| cell.map_or([0.0; 4], |k| adjoints[k]);
-                by.add(
-                    value(before),
-                    value(behind),
-                    by_height,
-                    trig,
-                    self.grid.axial[j],
-                );
+                sums.add(value(before), value(behind), by_height, self.grid.axial[j]);
             }
+            by.add(&sums, self.angles.faces[i]);
         }
     }
 
     fn sensitivity_axial(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         for i in 0..n {
-            let trig = self.angles.centres[i];
-            for j in 0..=m {
-                let face = i * (m + 1) + j;
-                let by_height = 3.0 * self.set_flow_axial(i, j) / self.gap.axial[face];
-                let before = if j == 0 {
-                    [0.0; 4]
-                } else {
-                    adjoints[i * m + j - 1]
-                };
-                let behind = if j == m {
-                    [0.0; 4]
-                } else {
-                    adjoints[i * m + j]
-                };
-                by.add(before, behind, by_height, trig, self.grid.axial_faces[j]);
+            let gap = &self.gap.axial[i * (m + 1)..(i + 1) * (m + 1)];
+            let conductance = &self.operator.conductance_axial[i * (m + 1)..(i + 1) * (m + 1)];
+            let pressure = &self.pressure[i * m..(i + 1) * m];
+            let adjoints = &adjoints[i * m..(i + 1) * m];
+            let faces = &self.grid.axial_faces;
+            let mut sums = StationSums::default();
+            let first = 3.0 * self.set_flow_at_end(i, 0) / gap[0];
+            sums.add([0.0; 4], adjoints[0], first, faces[0]);
+            for j in 1..m {
+                let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
+                let by_height = 3.0 * flow / gap[j];
+                sums.add(adjoints[j - 1], adjoints[j], by_height, faces[j]);
             }
+            let last = 3.0 * self.set_flow_at_end(i, m) / gap[m];
+            sums.add(adjoints[m - 1], [0.0; 4], last, faces[m]);
+            by.add(&sums, self.angles.centres[i]);
         }
     }
 
-    /// Flow along the axis as the equations of the set have it: an end against air is open or
-    /// closed by the set, not by the pressure.
-    fn set_flow_axial(&self, i: usize, j: usize) -> f64 {
+    /// Flow through the first (`j` = 0) or last face along the axis as the equations of the set have
+    /// it: an end against air is open or closed by the set, not by the pressure.
+    fn set_flow_at_end(&self, i: usize, j: usize) -> f64 {
         let m = self.grid.n_axial();
-        if j != 0 && j != m {
-            return self.operator.flow_axial(i, j, self.pressure);
-        }
         let outside = match self.operator.axial {
             Axial::Closed => return 0.0,
             Axial::Air(_) if !self.set.end_open[2 * i + usize::from(j == m)] => return 0.0,
@@ -537,14 +526,15 @@ impl SolvedFilm<'_> {
     fn sensitivity_storage(&self, adjoints: &[Lanes], per_time: f64, by: &mut Sensitivity) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
-            let trig = self.angles.means[i];
+            let mut sums = StationSums::default();
             for j in 0..m {
                 let k = i * m + j;
                 if !self.gains_limited(k) {
                     let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
-                    by.add(adjoints[k], [0.0; 4], by_height, trig, self.grid.axial[j]);
+                    sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
                 }
             }
+            by.add(&sums, self.angles.means[i]);
         }
     }
 
@@ -559,14 +549,15 @@ impl SolvedFilm<'_> {
         let m = self.grid.n_axial();
         let speed = self.operator.mean_speed;
         for i in 0..self.grid.n_around() {
-            let trig = self.angles.faces[if speed > 0.0 { i + 1 } else { i }];
+            let mut sums = StationSums::default();
             for j in 0..m {
                 let k = i * m + j;
                 if self.gains_limited(k) {
                     let by_height = -speed.abs() * self.grid.area(i, j) * self.film_fraction[k];
-                    by.add(adjoints[k], [0.0; 4], by_height, trig, self.grid.axial[j]);
+                    sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
                 }
             }
+            by.add(&sums, self.angles.faces[if speed > 0.0 { i + 1 } else { i }]);
         }
     }
 
@@ -598,6 +589,26 @@ impl SolvedFilm<'_> {
     }
 }
 
+/// What one station gives to the four outputs per rise of H there: in the mid-plane, and times zeta.
+#[derive(Debug, Clone, Copy, Default)]
+struct StationSums {
+    even: Lanes,
+    tilting: Lanes,
+}
+
+impl StationSums {
+    /// Adds the share of one face (adjoints before and behind it) or cell, given the derivative of
+    /// its flow by H.
+    #[inline]
+    fn add(&mut self, before: Lanes, behind: Lanes, by_height: f64, zeta: f64) {
+        for output in 0..4 {
+            let drop = (before[output] - behind[output]) * by_height;
+            self.even[output] += drop;
+            self.tilting[output] += zeta * drop;
+        }
+    }
+}
+
 /// Derivatives of the four outputs being summed: one row of lanes (outputs) per motion.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sensitivity {
@@ -605,23 +616,18 @@ struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Adds the share of one face (adjoints before and behind it) or cell, given the derivative of
-    /// its flow by H. H falls by `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`, and
+    /// Adds a station. H falls by `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`, and
     /// the output is minus the adjoint times the balance: the two signs cancel.
-    #[inline]
-    fn add(
-        &mut self,
-        before: Lanes,
-        behind: Lanes,
-        by_height: f64,
-        [cos, sin]: [f64; 2],
-        zeta: f64,
-    ) {
-        let drop: Lanes = std::array::from_fn(|o| (before[o] - behind[o]) * by_height);
-        let motions = [cos, sin, -zeta * sin, zeta * cos];
-        for (lanes, motion) in self.by_motion.iter_mut().zip(motions) {
-            for (sum, drop) in lanes.iter_mut().zip(drop) {
-                *sum += drop * motion;
+    fn add(&mut self, sums: &StationSums, [cos, sin]: [f64; 2]) {
+        let motions = [
+            (cos, &sums.even),
+            (sin, &sums.even),
+            (-sin, &sums.tilting),
+            (cos, &sums.tilting),
+        ];
+        for (lanes, (factor, sums)) in self.by_motion.iter_mut().zip(motions) {
+            for (sum, share) in lanes.iter_mut().zip(sums) {
+                *sum += factor * share;
             }
         }
     }

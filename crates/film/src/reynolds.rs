@@ -96,6 +96,10 @@ pub struct Operator {
     pub stored: Vec<f64>,
     /// Mean surface speed, rad/s.
     pub mean_speed: f64,
+    /// Largest flow that drives the film: dragged along, stored or released, 1/s.
+    pub flow_unit: f64,
+    /// Inverse distance of what faces along the axis couple; end faces couple a cell centre to the end.
+    pub per_axial_distance: Vec<f64>,
 }
 
 impl Operator {
@@ -116,6 +120,8 @@ impl Operator {
             ruptured_storage: vec![0.0; n * m],
             stored: vec![0.0; n * m],
             mean_speed: 0.0,
+            flow_unit: 0.0,
+            per_axial_distance: (0..=m).map(|j| 1.0 / axial_distance(grid, j)).collect(),
         }
     }
 
@@ -125,9 +131,8 @@ impl Operator {
         let (n, m) = (self.n_around, self.n_axial);
         for i in 0..=n {
             let distance = around_distance(grid, &self.around, i);
-            for j in 0..m {
+            for (j, width) in grid.axial_widths.iter().enumerate() {
                 let face = i * m + j;
-                let width = grid.axial_widths[j];
                 self.conductance_around[face] = gap.around_cubed[face] * width / distance;
                 self.transport[face] = mean_speed * gap.around_transport[face] * width;
             }
@@ -138,38 +143,55 @@ impl Operator {
                 self.transport[face] = 0.0;
             }
         }
+        let [closed, mid_plane] = [self.axial == Axial::Closed, self.ends_at_mid_plane];
         for i in 0..n {
-            for j in 0..=m {
-                let face = i * (m + 1) + j;
-                let is_closed = match j {
-                    0 => self.axial == Axial::Closed,
-                    j if j == m => self.axial == Axial::Closed || self.ends_at_mid_plane,
-                    _ => false,
-                };
-                self.conductance_axial[face] = if is_closed {
-                    0.0
-                } else {
-                    gap.axial[face].powi(3) * grid.around_widths[i] / axial_distance(grid, j)
-                };
+            let width = grid.around_widths[i];
+            let faces = i * (m + 1)..(i + 1) * (m + 1);
+            let conductance = &mut self.conductance_axial[faces.clone()];
+            let shares = gap.axial[faces].iter().zip(&self.per_axial_distance);
+            for (conductance, (height, per_distance)) in conductance.iter_mut().zip(shares) {
+                *conductance = height * height * height * width * per_distance;
             }
-            for j in 0..m {
-                let k = i * m + j;
-                let area = grid.area(i, j);
-                let least = -self.outflow(k) * grid.around_widths[i];
-                (self.storage[k], self.stored[k]) = match storage {
-                    Storage::Rate => (gap.rate[k] * area, 0.0),
-                    Storage::Step {
-                        duration,
-                        after,
-                        old,
-                    } => {
-                        let end = gap.mean[k] + after * gap.rate[k];
-                        (end * area / duration, old[k] * area / duration)
-                    }
-                };
-                self.ruptured_storage[k] = self.storage[k].max(least);
+            if closed {
+                conductance[0] = 0.0;
             }
+            if closed || mid_plane {
+                conductance[m] = 0.0;
+            }
+            self.update_storage(grid, gap, storage, i);
         }
+        self.flow_unit = self.largest_drive();
+    }
+
+    /// Storage of the cells of station `i`.
+    fn update_storage(&mut self, grid: &Grid, gap: &Gap, storage: Storage<'_>, i: usize) {
+        let m = self.n_axial;
+        let width = grid.around_widths[i];
+        for (j, along) in grid.axial_widths.iter().enumerate() {
+            let k = i * m + j;
+            let area = width * along;
+            let least = -self.outflow(k) * width;
+            (self.storage[k], self.stored[k]) = match storage {
+                Storage::Rate => (gap.rate[k] * area, 0.0),
+                Storage::Step {
+                    duration,
+                    after,
+                    old,
+                } => {
+                    let end = gap.mean[k] + after * gap.rate[k];
+                    (end * area / duration, old[k] * area / duration)
+                }
+            };
+            self.ruptured_storage[k] = self.storage[k].max(least);
+        }
+    }
+
+    /// Largest flow that drives the film: dragged along, stored or released, 1/s.
+    fn largest_drive(&self) -> f64 {
+        let transport = self.transport.iter();
+        let dragged = transport.fold(0.0_f64, |a, b| a.max(b.abs()));
+        let stored = self.storage.iter().zip(&self.stored);
+        stored.fold(dragged, |a, (new, old)| a.max((new - old).abs()))
     }
 
     /// Flow that transport takes out of a full cell, 1/s.
@@ -202,25 +224,39 @@ impl Operator {
             [false, true] => (of[0] + of[1]) / of[0],
             _ => 1.0,
         };
+        let has_fed = |i: usize| cells[i * m..(i + 1) * m].contains(&Cell::Fed);
         for i in 0..=n {
-            let (before, behind) = match (i, self.around) {
-                (0, Around::Periodic) => (n - 1, 0),
-                (i, Around::Periodic) if i == n => (n - 1, 0),
-                (i, _) if i == 0 || i == n => continue,
-                _ => (i - 1, i),
+            let [Some(before), Some(behind)] = self.stations_beside(i) else {
+                continue;
             };
+            if !has_fed(before) && !has_fed(behind) {
+                continue;
+            }
             let widths = [before, behind].map(|i| grid.around_widths[i]);
             for j in 0..m {
                 let states = [before, behind].map(|i| fed(i * m + j));
                 self.conductance_around[i * m + j] *= gain(widths, states);
             }
         }
-        for i in 0..n {
+        for i in (0..n).filter(|&i| has_fed(i)) {
             for j in 1..m {
                 let widths = [j - 1, j].map(|j| grid.axial_widths[j]);
                 let states = [j - 1, j].map(|j| fed(i * m + j));
                 self.conductance_axial[i * (m + 1) + j] *= gain(widths, states);
             }
+        }
+    }
+
+    /// The stations before and behind face `i` around; `None` at a boundary.
+    #[must_use]
+    pub fn stations_beside(&self, i: usize) -> [Option<usize>; 2] {
+        let n = self.n_around;
+        match (i, self.around) {
+            (0, Around::Periodic) => [Some(n - 1), Some(0)],
+            (i, Around::Periodic) if i == n => [Some(n - 1), Some(0)],
+            (0, _) => [None, Some(0)],
+            (i, _) if i == n => [Some(n - 1), None],
+            _ => [Some(i - 1), Some(i)],
         }
     }
 
@@ -317,34 +353,58 @@ impl Operator {
         let (n, m) = (self.n_around, self.n_axial);
         let mut scale = 0.0_f64;
         excess.fill(0.0);
+        let mut flows = |i: usize, j: usize, flow: f64| {
+            scale = scale.max(flow.abs());
+            if i < n {
+                excess[i * m + j] += flow;
+            }
+            if i > 0 {
+                excess[(i - 1) * m + j] -= flow;
+            }
+        };
         for i in 0..=n {
+            let [Some(before), Some(behind)] = self.stations_beside(i) else {
+                for j in 0..m {
+                    flows(i, j, self.flow_around(i, j, pressure, film_fraction));
+                }
+                continue;
+            };
+            let faces = i * m..(i + 1) * m;
+            let (before, behind) = (before * m..(before + 1) * m, behind * m..(behind + 1) * m);
+            let conductance = &self.conductance_around[faces.clone()];
+            let transport = &self.transport[faces];
+            let (p_before, p_behind) = (&pressure[before.clone()], &pressure[behind.clone()]);
+            let (theta_before, theta_behind) = (&film_fraction[before], &film_fraction[behind]);
             for j in 0..m {
-                let flow = self.flow_around(i, j, pressure, film_fraction);
-                scale = scale.max(flow.abs());
-                if i < n {
-                    excess[i * m + j] += flow;
-                }
-                if i > 0 {
-                    excess[(i - 1) * m + j] -= flow;
-                }
+                let upstream = if transport[j] > 0.0 {
+                    theta_before[j]
+                } else {
+                    theta_behind[j]
+                };
+                let conducted = conductance[j] * (p_before[j] - p_behind[j]);
+                flows(i, j, conducted + transport[j] * upstream);
             }
         }
         for i in 0..n {
-            for j in 0..=m {
-                let flow = self.flow_axial(i, j, pressure);
+            let conductance = &self.conductance_axial[i * (m + 1)..(i + 1) * (m + 1)];
+            let pressure = &pressure[i * m..(i + 1) * m];
+            let excess = &mut excess[i * m..(i + 1) * m];
+            let out = [0, m - 1].map(|j| self.end_drop(pressure[j]));
+            let out = [conductance[0] * out[0], conductance[m] * out[1]];
+            scale = scale.max(out[0].abs()).max(out[1].abs());
+            excess[0] -= out[0];
+            excess[m - 1] -= out[1];
+            for j in 1..m {
+                let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
                 scale = scale.max(flow.abs());
-                if j < m {
-                    excess[i * m + j] += flow;
-                }
-                if j > 0 {
-                    excess[i * m + j - 1] -= flow;
-                }
+                excess[j] += flow;
+                excess[j - 1] -= flow;
             }
-            for j in 0..m {
+            for (j, excess) in excess.iter_mut().enumerate() {
                 let k = i * m + j;
                 let store = self.stored_flow(k, film_fraction[k]);
                 scale = scale.max(store.abs());
-                excess[k] -= store;
+                *excess -= store;
             }
         }
         scale

@@ -165,6 +165,10 @@ fn assemble_balance(
     let (n, m) = (operator.n_around, operator.n_axial);
     matrix.flows_east = operator.mean_speed >= 0.0;
     for i in 0..n {
+        let [before, behind] = [
+            operator.stations_beside(i)[0],
+            operator.stations_beside(i + 1)[1],
+        ];
         for j in 0..m {
             let k = i * m + j;
             let cell = set.cells[k];
@@ -193,7 +197,7 @@ fn assemble_balance(
                     rhs: operator.stored[k],
                 }
             };
-            let (west, east) = (operator.west(i, j), operator.east(i, j));
+            let [west, east] = [before, behind].map(|station| station.map(|i| i * m + j));
             let (west_face, east_face) = (k, k + m);
             let faces = (west_face, east_face);
             let conductances = (
@@ -237,6 +241,7 @@ struct Row {
 impl Row {
     /// Conduction to the `neighbour` around (or the boundary on `side`); returns the coefficient
     /// of the neighbour's pressure.
+    #[inline]
     fn conduct(
         &mut self,
         operator: &Operator,
@@ -257,6 +262,7 @@ impl Row {
         }
     }
 
+    #[inline]
     fn conduct_axial(
         &mut self,
         operator: &Operator,
@@ -289,6 +295,7 @@ impl Row {
         0.0
     }
 
+    #[inline]
     fn couple(&mut self, set: &FilmSet, cell: usize, conductance: f64) -> f64 {
         match set.cells[cell] {
             Cell::Full => -conductance,

@@ -19,37 +19,45 @@ pub(super) fn add_diagonal(block: &mut [f64], diagonal: &[f64], in_use: &mut boo
 /// column `p`. Returns `false` at a vanishing pivot.
 pub(super) fn sweep(
     block: &mut [f64],
-    rows: usize,
     width: usize,
     pivot_row: impl Fn(usize) -> usize,
 ) -> bool {
+    // Of a known width the lines stay in registers.
+    match width {
+        4 => sweep_lines(block, 4, pivot_row),
+        8 => sweep_lines(block, 8, pivot_row),
+        16 => sweep_lines(block, 16, pivot_row),
+        32 => sweep_lines(block, 32, pivot_row),
+        _ => sweep_lines(block, width, pivot_row),
+    }
+}
+
+#[inline(always)]
+fn sweep_lines(block: &mut [f64], width: usize, pivot_row: impl Fn(usize) -> usize) -> bool {
     for p in 0..width {
         let row = pivot_row(p);
-        let pivot = block[row * width + p];
+        let (above, rest) = block.split_at_mut(row * width);
+        let (pivots, below) = rest.split_at_mut(width);
+        let pivot = pivots[p];
         if pivot == 0.0 || !pivot.is_finite() {
             return false;
         }
         let inverse = 1.0 / pivot;
-        let (above, rest) = block.split_at_mut(row * width);
-        let (pivots, below) = rest.split_at_mut(width);
         for value in pivots.iter_mut() {
             *value *= inverse;
         }
         pivots[p] = inverse;
-        for line in above
-            .chunks_exact_mut(width)
-            .chain(below.chunks_exact_mut(width))
-        {
-            let factor = line[p];
-            if factor == 0.0 {
-                continue;
-            }
-            line[p] = 0.0;
-            for (value, pivot) in line.iter_mut().zip(pivots.iter()) {
-                *value -= factor * pivot;
+        for lines in [above, below] {
+            for line in lines.chunks_exact_mut(width) {
+                let factor = line[p];
+                if factor != 0.0 {
+                    line[p] = 0.0;
+                    for (value, pivot) in line.iter_mut().zip(pivots.iter()) {
+                        *value -= factor * pivot;
+                    }
+                }
             }
         }
-        debug_assert!(row < rows);
     }
     true
 }
@@ -63,21 +71,34 @@ pub(super) fn apply_inverse(
     y: &mut [f64],
 ) {
     let width = columns.len();
+    if width == x.len() {
+        // All rows are loaded and have no diagonal part of their own.
+        return match width {
+            8 => product(inverse, 8, x, y),
+            16 => product(inverse, 16, x, y),
+            32 => product(inverse, 32, x, y),
+            _ => product(inverse, width, x, y),
+        };
+    }
     for (row, value) in y.iter_mut().enumerate() {
         let line = &inverse[row * width..(row + 1) * width];
-        *value = diagonal[row] * x[row] + gathered_dot(line, columns, x);
+        let loaded: f64 = line.iter().zip(columns).map(|(a, &j)| a * x[j]).sum();
+        *value = diagonal[row] * x[row] + loaded;
     }
 }
 
-pub(super) fn gathered_dot(line: &[f64], columns: &[usize], x: &[f64]) -> f64 {
-    if columns.len() == x.len() {
-        return dot(line, x);
+/// `y = A x` for a square row-major A.
+#[inline(always)]
+fn product(a: &[f64], width: usize, x: &[f64], y: &mut [f64]) {
+    let x = &x[..width];
+    for (line, value) in a.chunks_exact(width).zip(y) {
+        *value = dot(line, x);
     }
-    line.iter().zip(columns).map(|(a, &j)| a * x[j]).sum()
 }
 
 /// Four partial sums, so that the additions do not wait for one another.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+#[inline(always)]
+fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 4];
     let (a4, b4) = (a.chunks_exact(4), b.chunks_exact(4));
     let rest: f64 = a4
@@ -221,5 +242,13 @@ pub(super) fn add_scaled(target: &mut [f64], factor: f64, source: &[f64]) {
         for (value, entry) in target.iter_mut().zip(source) {
             *value += factor * entry;
         }
+    }
+}
+
+/// `target -= factor * line * scale`, entry by entry.
+#[inline]
+pub(super) fn subtract_scaled_line(target: &mut [f64], factor: f64, line: &[f64], scale: &[f64]) {
+    for ((value, entry), scale) in target.iter_mut().zip(line).zip(scale) {
+        *value -= factor * entry * scale;
     }
 }

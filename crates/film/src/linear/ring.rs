@@ -14,7 +14,8 @@
 
 use super::kernels::{
     Lanes, add_diagonal, add_lanes, add_product, apply_inverse, multiply_left, multiply_right,
-    subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled, sweep,
+    subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled,
+    subtract_scaled_line, sweep,
     two_stations,
 };
 
@@ -177,7 +178,7 @@ impl RingFactor {
             }
         }
         if self.border.is_some() {
-            return sweep(&mut self.border_inverse, m, m, |p| p);
+            return sweep(&mut self.border_inverse, m, |p| p);
         }
         true
     }
@@ -425,11 +426,14 @@ impl RingFactor {
         let m = self.n_axial;
         let columns = &self.rows[self.start[station]..self.start[station + 1]];
         let width = columns.len();
-        if !sweep(&mut self.block[..m * width], m, width, |p| columns[p]) {
+        if !sweep(&mut self.block[..m * width], width, |p| columns[p]) {
             return false;
         }
         let inverse = &mut self.inverse[station * m * m..station * m * m + m * width];
         inverse.copy_from_slice(&self.block[..m * width]);
+        if width == m {
+            return true;
+        }
         for j in 0..m {
             let diagonal = &mut self.inverse_diagonal[station * m + j];
             // Loaded rows hold 0 here and have no diagonal part of their own.
@@ -455,25 +459,35 @@ impl RingFactor {
         let (own_width, width) = (own.len(), columns.len());
         let inverse = &self.inverse[station * m * m..station * m * m + m * own_width];
         let ahead = &self.ahead[station * m..(station + 1) * m];
-        // Column j of `inverse` exists for loaded j; other columns are diagonal.
-        for row in 0..m {
-            let factor = self.behind[next * m + row];
-            if factor == 0.0 {
-                continue;
+        if own == columns {
+            for ((scale, &j), _) in self.line.iter_mut().zip(columns).zip(0..width) {
+                *scale = ahead[j];
             }
-            let mut own_column = 0;
-            for (c, &j) in columns.iter().enumerate() {
-                while own_column < own_width && own[own_column] < j {
-                    own_column += 1;
+            let lines = inverse.chunks_exact(width.max(1));
+            let targets = self.block.chunks_exact_mut(width.max(1));
+            let behind = &self.behind[next * m..(next + 1) * m];
+            for ((target, line), factor) in targets.zip(lines).zip(behind) {
+                if *factor != 0.0 {
+                    subtract_scaled_line(target, *factor, line, &self.line);
                 }
-                let entry = if own_column < own_width && own[own_column] == j {
-                    inverse[row * own_width + own_column]
-                } else if row == j {
-                    self.inverse_diagonal[station * m + j]
-                } else {
-                    continue;
-                };
-                self.block[row * width + c] -= factor * entry * ahead[j];
+            }
+            return;
+        }
+        // Column j of `inverse` exists for loaded j; other columns are diagonal.
+        let mut own_column = 0;
+        for (c, &j) in columns.iter().enumerate() {
+            while own_column < own_width && own[own_column] < j {
+                own_column += 1;
+            }
+            let behind = &self.behind[next * m..(next + 1) * m];
+            if own_column < own_width && own[own_column] == j {
+                for (row, factor) in behind.iter().enumerate() {
+                    let entry = inverse[row * own_width + own_column];
+                    self.block[row * width + c] -= factor * entry * ahead[j];
+                }
+            } else {
+                let entry = self.inverse_diagonal[station * m + j];
+                self.block[j * width + c] -= behind[j] * entry * ahead[j];
             }
         }
     }
