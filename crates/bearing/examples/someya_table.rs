@@ -59,6 +59,8 @@ fn main() {
             inlet: Inlet::Cyclic,
             cavitation: Cavitation::Reynolds,
             film_shear: FilmShear::FullWidth,
+            finish: sommerfeld_film::Finish::Smooth,
+            elasticity: sommerfeld_film::Elasticity::Rigid,
         };
         // S = eta N D B/W (R/c)^2 with N in revolutions.
         let turns = speed / TAU;

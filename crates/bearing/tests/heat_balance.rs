@@ -27,6 +27,8 @@ fn bearing() -> Bearing {
         inlet: Inlet::MaxFilmLine { pressure: 0.0 },
         cavitation: Cavitation::Reynolds,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 

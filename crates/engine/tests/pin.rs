@@ -27,6 +27,8 @@ fn bearing(width: f64, radial_clearance: f64) -> Bearing {
         inlet: Inlet::Cyclic,
         cavitation: Cavitation::Gumbel,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 

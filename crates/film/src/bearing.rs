@@ -1,5 +1,7 @@
 //! What a bearing is: immutable data shared by every film model.
 
+use crate::elastic::Elasticity;
+use crate::finish::Finish;
 use crate::shape::Shape;
 use serde::{Deserialize, Serialize};
 
@@ -32,6 +34,12 @@ pub struct Bearing {
     pub cavitation: Cavitation,
     /// How the ruptured film shears.
     pub film_shear: FilmShear,
+    /// Roughness of both surfaces, and what asperities carry.
+    #[serde(default)]
+    pub finish: Finish,
+    /// How the running surface of the shell gives way.
+    #[serde(default)]
+    pub elasticity: Elasticity,
 }
 
 impl Bearing {

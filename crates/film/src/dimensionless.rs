@@ -87,6 +87,8 @@ impl DimensionlessFilm {
             inlet: self.inlet,
             cavitation: self.cavitation,
             film_shear: FilmShear::FullWidth,
+            finish: crate::Finish::Smooth,
+            elasticity: crate::Elasticity::Rigid,
         }
     }
 

@@ -298,6 +298,15 @@ pub struct FilmSummary {
     /// Power that squeeze motion and tilt rates put into the film, -F v - M tilt_rate, W, and what a
     /// journal that is not round puts in as it turns.
     pub squeeze_power: f64,
+    /// Largest contact pressure of asperities, Pa, and where; zero without contact.
+    #[serde(default)]
+    pub peak_contact_pressure: Extreme,
+    /// Contact pressure over the whole bearing, N: integral without regard to its direction.
+    #[serde(default)]
+    pub contact_load: f64,
+    /// Power of asperities that touch, W: part of the friction power.
+    #[serde(default)]
+    pub boundary_power: f64,
     /// Share of the land area that carries a full film.
     pub full_film_share: f64,
     /// Largest violation of p >= p_cav, theta <= 1 and (p - p_cav)(1 - theta) = 0, relative to the

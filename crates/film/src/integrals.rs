@@ -12,7 +12,7 @@
 //! summed over faces: summation by parts then makes the torque identity exact on any grid, with the
 //! rise of a profile over each cell.
 
-use crate::bearing::{Bearing, FilmShear};
+use crate::bearing::Bearing;
 use crate::cavitation::FilmSet;
 use crate::force::{Extreme, FilmSummary, Reaction, Tangent};
 use crate::gap::{AngleTables, Gap, Waviness};
@@ -20,9 +20,11 @@ use crate::grid::Grid;
 use crate::journal_state::JournalState;
 use crate::linear::Lanes;
 use crate::narrowest::GapSearch;
+use crate::passage::Passage;
 use crate::peak::{CENTRE, Peak, WIDTH, Window, parabola_peak};
-use crate::reynolds::{Axial, Cell, Operator, Storage};
+use crate::reynolds::{Around, Axial, Cell, Operator, Storage};
 use crate::surfaces::Surfaces;
+use sommerfeld_oil::CompressionLaw;
 
 /// Units that turn the film's relative quantities into SI.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,6 +82,12 @@ pub struct SolvedFilm<'a> {
     pub pressure: &'a [f64],
     /// P - P_cav per cell, 1/s, and its derivative by the reduced pressure; empty where they are one.
     pub stiffened: &'a [[f64; 2]],
+    /// How the density grows with pressure.
+    pub compression: &'a CompressionLaw,
+    /// What the gap lets through, where it is not a smooth one of one oil.
+    pub passage: Option<&'a Passage>,
+    /// Contact pressure per cell, 1/s, and its derivative by the nominal H; empty without contact.
+    pub contact: &'a [[f64; 2]],
     /// Film fraction per cell.
     pub film_fraction: &'a [f64],
     /// Entering beyond leaving per cell, 1/s.
@@ -96,6 +104,24 @@ impl SolvedFilm<'_> {
         match self.stiffened.get(cell) {
             Some([pressure, _]) => *pressure,
             None => self.pressure[cell],
+        }
+    }
+
+    /// The same beside a face: of a cell, or of the boundary on a side.
+    pub(crate) fn loading_beside(&self, cell: Option<usize>, side: usize) -> f64 {
+        match (cell, self.operator.around) {
+            (Some(cell), _) => self.loading(cell),
+            (None, Around::Pressures(given)) => given[side],
+            (None, _) => 0.0,
+        }
+    }
+
+    /// Viscosity of a cell over that at no pressure.
+    pub(crate) fn thickening(&self, cell: usize) -> f64 {
+        let pressure = self.loading(cell);
+        match self.stiffened.get(cell) {
+            Some([_, slope]) => slope * self.compression.factor(pressure * self.units.pressure).0,
+            None => 1.0,
         }
     }
 
@@ -126,84 +152,16 @@ impl SolvedFilm<'_> {
         }
         let force_unit = self.units.pressure * self.units.area;
         let moment_unit = force_unit * self.units.radius;
-        let (shear, drag) = (self.shear_torque(state), self.pressure_torque());
+        let friction = self.friction(state);
+        let (contact_force, contact_moment) = self.contact_reaction();
         Reaction {
             film_force: force.map(|f| f * force_unit),
             film_moment: moment.map(|f| f * moment_unit),
-            friction_torque_journal: shear + drag,
-            friction_torque_shell: shear - drag,
-            ..Reaction::default()
+            contact_force,
+            contact_moment,
+            friction_torque_journal: friction.journal + friction.boundary,
+            friction_torque_shell: friction.shell + friction.boundary,
         }
-    }
-
-    /// `R int eta U_s/h dA` over the lands, N m.
-    fn shear_torque(&self, state: &JournalState) -> f64 {
-        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
-        let mut sum = 0.0;
-        for i in 0..n {
-            for j in 0..m {
-                let k = i * m + j;
-                // A groove is deep: its shear is negligible beside that of the lands.
-                if self.set.cells[k] == Cell::Fed {
-                    continue;
-                }
-                let share = match self.bearing.film_shear {
-                    FilmShear::FullWidth => 1.0,
-                    FilmShear::FilmFraction => self.wetted_share(k),
-                };
-                sum += share * self.grid.area(i, j) / self.gap.mean[k];
-            }
-        }
-        let sliding = state.journal_speed - state.shell_speed;
-        let units = &self.units;
-        units.viscosity * sliding * units.radius.powi(2) * units.area / units.clearance * sum
-    }
-
-    /// Liquid in a cell over its mean gap. The film fraction of a ruptured cell belongs to the gap at
-    /// the face it drains through; taken with the mean gap it would be a first-order error.
-    fn wetted_share(&self, cell: usize) -> f64 {
-        let theta = self.film_fraction[cell];
-        let flow = self.operator.mean_speed;
-        if theta >= 1.0 || flow == 0.0 {
-            return theta;
-        }
-        let face = if flow > 0.0 {
-            cell + self.grid.n_axial()
-        } else {
-            cell
-        };
-        (theta * self.gap.around_transport[face] / self.gap.mean[cell]).min(1.0)
-    }
-
-    /// `R int (h/2) dp/dx dA`, N m.
-    fn pressure_torque(&self) -> f64 {
-        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
-        let mut sum = 0.0;
-        // A periodic ring meets its first face twice: as face 0 and as face n.
-        let last = if self.operator.west(0, 0).is_some() {
-            n
-        } else {
-            n + 1
-        };
-        for i in 0..last {
-            for j in 0..m {
-                let before = if i == 0 {
-                    self.operator.west(0, j)
-                } else {
-                    Some((i - 1) * m + j)
-                };
-                let behind = if i == n { None } else { Some(i * m + j) };
-                let (p_before, _) =
-                    self.operator
-                        .beside(before, 0, self.pressure, self.film_fraction);
-                let (p_behind, _) =
-                    self.operator
-                        .beside(behind, 1, self.pressure, self.film_fraction);
-                let height = self.gap.around_transport[i * m + j];
-                sum += height * (p_behind - p_before) * self.grid.axial_widths[j];
-            }
-        }
-        0.5 * sum * self.units.clearance * self.units.pressure * self.units.area
     }
 
     /// Everything a designer asks of the film.
@@ -214,6 +172,8 @@ impl SolvedFilm<'_> {
             minimum_film_thickness: self.minimum_film(state),
             edge_film_thickness: self.search.at_edges(self.bearing, state),
             peak_film_pressure: self.peak_pressure(),
+            peak_contact_pressure: self.peak_contact(),
+            contact_load: self.contact_load(),
             ..FilmSummary::default()
         };
         let (mut land, mut full) = (0.0, 0.0);
@@ -298,9 +258,11 @@ impl SolvedFilm<'_> {
             |rate: [f64; 2], of: [f64; 2]| [rate[0] + turning * of[1], rate[1] - turning * of[0]];
         let velocity = relative(state.velocity, state.position);
         let tilt_rate = relative(state.tilt_rate, state.tilt);
-        let (force, moment) = (reaction.film_force, reaction.film_moment);
+        let (force, moment) = (reaction.force(), reaction.moment());
         summary.friction_power =
             reaction.friction_torque_journal * (state.journal_speed - state.shell_speed);
+        summary.boundary_power =
+            self.friction(state).boundary * (state.journal_speed - state.shell_speed);
         summary.squeeze_power = -(force[0] * velocity[0] + force[1] * velocity[1])
             - (moment[0] * tilt_rate[0] + moment[1] * tilt_rate[1])
             - self.profile_torque() * (state.journal_speed - state.shell_speed);
@@ -426,16 +388,19 @@ impl SolvedFilm<'_> {
         let (mut by_position, mut by_rate) = (Sensitivity::default(), Sensitivity::default());
         self.sensitivity_around(adjoints, &mut by_position);
         self.sensitivity_axial(adjoints, &mut by_position);
+        self.sensitivity_contact(&mut by_position);
         match storage {
             Storage::Rate => {
-                self.sensitivity_storage(adjoints, 1.0, &mut by_rate);
+                self.sensitivity_storage(adjoints, 1.0, 0.0, &mut by_rate);
+                self.sensitivity_storage(adjoints, 0.0, 1.0, &mut by_position);
                 self.sensitivity_limited_storage(adjoints, &mut by_position);
             }
             Storage::Step {
                 duration, after, ..
             } => {
-                self.sensitivity_storage(adjoints, 1.0 / duration, &mut by_position);
-                self.sensitivity_storage(adjoints, after / duration, &mut by_rate);
+                let per_time = 1.0 / duration;
+                self.sensitivity_storage(adjoints, per_time, after * per_time, &mut by_position);
+                self.sensitivity_storage(adjoints, after * per_time, 0.0, &mut by_rate);
             }
         }
         Tangent {
@@ -471,7 +436,10 @@ impl SolvedFilm<'_> {
                 } else {
                     theta_behind
                 };
-                let (conducting, carrying) = self.gap.relative_slopes(face, &mut steps);
+                let (conducting, carrying) = match self.passage {
+                    Some(passage) => passage.around_slopes[face].into(),
+                    None => self.gap.relative_slopes(face, &mut steps),
+                };
                 let conducted = conducting * self.operator.conductance_around[face];
                 let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
                 let value = |cell: Option<usize>| cell.map_or([0.0; 4], |k| adjoints[k]);
@@ -489,15 +457,19 @@ impl SolvedFilm<'_> {
             let pressure = &self.pressure[i * m..(i + 1) * m];
             let adjoints = &adjoints[i * m..(i + 1) * m];
             let faces = &self.grid.axial_faces;
+            let slope = |j: usize| match self.passage {
+                Some(passage) => passage.axial_slopes[i * (m + 1) + j],
+                None => 3.0 / gap[j],
+            };
             let mut sums = StationSums::default();
-            let first = 3.0 * self.set_flow_at_end(i, 0) / gap[0];
+            let first = slope(0) * self.set_flow_at_end(i, 0);
             sums.add([0.0; 4], adjoints[0], first, faces[0]);
             for j in 1..m {
                 let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
-                let by_height = 3.0 * flow / gap[j];
+                let by_height = slope(j) * flow;
                 sums.add(adjoints[j - 1], adjoints[j], by_height, faces[j]);
             }
-            let last = 3.0 * self.set_flow_at_end(i, m) / gap[m];
+            let last = slope(m) * self.set_flow_at_end(i, m);
             sums.add(adjoints[m - 1], [0.0; 4], last, faces[m]);
             by.add(&sums, self.angles.centres[i]);
         }
@@ -523,15 +495,47 @@ impl SolvedFilm<'_> {
 
     /// `per_time`: 1 for rates of change; 1/duration for the gap and after/duration for its rate in
     /// steps.
-    fn sensitivity_storage(&self, adjoints: &[Lanes], per_time: f64, by: &mut Sensitivity) {
+    /// Of what cells hold, by the gap (or its rate) `per_time`, and by how its growth changes with the
+    /// gap `per_rate`.
+    fn sensitivity_storage(
+        &self,
+        adjoints: &[Lanes],
+        per_time: f64,
+        per_rate: f64,
+        by: &mut Sensitivity,
+    ) {
         let m = self.grid.n_axial();
+        if self.passage.is_none() && per_time == 0.0 {
+            return;
+        }
         for i in 0..self.grid.n_around() {
             let mut sums = StationSums::default();
             for j in 0..m {
                 let k = i * m + j;
                 if !self.gains_limited(k) {
-                    let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
+                    let held = self.passage.map_or(per_time, |passage| {
+                        let [slope, curvature] = passage.holding_slopes[k];
+                        per_time * slope + per_rate * passage.rate[k] * curvature
+                    });
+                    let by_height = held * self.film_fraction[k] * self.grid.area(i, j);
                     sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
+                }
+            }
+            by.add(&sums, self.angles.means[i]);
+        }
+    }
+
+    /// Of the asperities that touch: their pressure follows the gap of their own cell.
+    fn sensitivity_contact(&self, by: &mut Sensitivity) {
+        if self.contact.is_empty() {
+            return;
+        }
+        let m = self.grid.n_axial();
+        for i in 0..self.grid.n_around() {
+            let mut sums = StationSums::default();
+            for j in 0..m {
+                if let Some(outputs) = self.contact_by_height(i * m + j) {
+                    sums.add([0.0; 4], outputs, 1.0, self.grid.axial[j]);
                 }
             }
             by.add(&sums, self.angles.means[i]);
@@ -553,7 +557,12 @@ impl SolvedFilm<'_> {
             for j in 0..m {
                 let k = i * m + j;
                 if self.gains_limited(k) {
-                    let by_height = -speed.abs() * self.grid.area(i, j) * self.film_fraction[k];
+                    let per_height = self.passage.map_or(1.0, |passage| {
+                        let face = if speed > 0.0 { k + m } else { k };
+                        passage.around_slopes[face][1] * self.gap.around_transport[face]
+                    });
+                    let by_height =
+                        -speed.abs() * per_height * self.grid.area(i, j) * self.film_fraction[k];
                     sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
                 }
             }
@@ -569,7 +578,8 @@ impl SolvedFilm<'_> {
             for j in 0..m {
                 let k = i * m + j;
                 weights[k] = if loaded(k) {
-                    self.output_weight(k)
+                    let stiffening = self.stiffening(k);
+                    self.output_weight(k).map(|weight| weight * stiffening)
                 } else {
                     [0.0; 4]
                 };

@@ -35,8 +35,10 @@ pub struct Passage {
     pub axial_slopes: Vec<f64>,
     /// Flow by sliding past rough surfaces through faces around, 1/s per width.
     drag: Vec<f64>,
-    /// Derivative of what a cell holds by its nominal H.
-    pub holding_slopes: Vec<f64>,
+    /// First and second derivative of what a cell holds by its nominal H.
+    pub holding_slopes: Vec<[f64; 2]>,
+    /// Rate of the nominal H, 1/s.
+    pub rate: Vec<f64>,
     /// Mean shear rate over the sliding speed over the clearance, `phi_f/H`; half the difference of both
     /// walls, `phi_fs/H`.
     pub shearing: Vec<[f64; 2]>,
@@ -86,7 +88,8 @@ impl Passage {
             around_slopes: vec![[0.0; 2]; (n + 1) * m],
             axial_slopes: vec![0.0; n * (m + 1)],
             drag: around.clone(),
-            holding_slopes: cells.clone(),
+            holding_slopes: vec![[0.0; 2]; n * m],
+            rate: cells.clone(),
             shearing: vec![[0.0; 2]; n * m],
             pressing: around,
             viscosity: cells,
@@ -97,6 +100,7 @@ impl Passage {
     pub(crate) fn narrow(&mut self, gap: &mut Gap, state: &PassageState<'_>) {
         self.height_around.copy_from_slice(&gap.around_transport);
         self.height.copy_from_slice(&gap.mean);
+        self.rate.copy_from_slice(&gap.rate);
         self.fill_cells(gap, state);
         self.fill_around(gap, state);
         self.fill_axial(gap, state);
@@ -130,20 +134,22 @@ impl Passage {
         for k in 0..self.height.len() {
             let nominal = self.height[k];
             let gap_m = nominal * state.clearance;
-            let (mean, slope, shearing) = match &self.factors {
+            let (mean, slopes, shearing) = match &self.factors {
                 Some(factors) => {
                     let mean = factors.mean_gap(gap_m);
                     let stress = factors.shear_over_gap(gap_m).value * state.clearance;
                     let difference = factors.shear_difference(gap_m).value / nominal;
                     // Where the surfaces overlap the factor is zero faster than the gap.
                     let difference = if difference.is_finite() { difference } else { 0.0 };
-                    (mean.value / state.clearance, mean.contact_factor, [stress, difference])
+                    let curvature = mean.contact_factor_by_gap * state.clearance;
+                    let slopes = [mean.contact_factor, curvature];
+                    (mean.value / state.clearance, slopes, [stress, difference])
                 }
-                None => (nominal, 1.0, [1.0 / nominal, 0.0]),
+                None => (nominal, [1.0, 0.0], [1.0 / nominal, 0.0]),
             };
             gap.mean[k] = mean;
-            gap.rate[k] *= slope;
-            self.holding_slopes[k] = slope;
+            gap.rate[k] *= slopes[0];
+            self.holding_slopes[k] = slopes;
             self.shearing[k] = shearing;
             let temperature = state.field.map_or(state.temperature, |field| field[k]);
             let warm = if state.field.is_some() {

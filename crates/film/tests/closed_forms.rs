@@ -27,6 +27,8 @@ fn bearing() -> Bearing {
         inlet: Inlet::Cyclic,
         cavitation: Cavitation::Gumbel,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 

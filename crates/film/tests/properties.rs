@@ -81,6 +81,8 @@ fn random_bearing(random: &mut Random) -> Bearing {
             Cavitation::MassConserving,
         ]),
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     };
     match random.pick(&[0, 1, 1, 2, 3, 4]) {
         0 => {

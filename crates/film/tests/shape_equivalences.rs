@@ -393,6 +393,8 @@ fn closed_forms_and_turning_grids_refuse_shapes() {
     let bearing = Bearing {
         cavitation: Cavitation::Gumbel,
         film_shear: sommerfeld_film::FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
         bore: Shape::of([lemon(10e-6, 0.0)]),
         ..big_end()
     };

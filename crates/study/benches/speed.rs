@@ -182,6 +182,8 @@ fn films(criterion: &mut Criterion) {
         feeds: Vec::new(),
         cavitation: Cavitation::Gumbel,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
         ..case.bearing.clone()
     };
     let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;

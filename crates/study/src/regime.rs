@@ -123,6 +123,8 @@ mod tests {
             inlet: Inlet::Cyclic,
             cavitation: Cavitation::Reynolds,
             film_shear: FilmShear::FullWidth,
+            finish: sommerfeld_film::Finish::Smooth,
+            elasticity: sommerfeld_film::Elasticity::Rigid,
         }
     }
 

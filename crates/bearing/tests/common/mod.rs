@@ -28,6 +28,8 @@ pub fn plain_bearing(diameter: f64, width: f64, radial_clearance: f64) -> Bearin
         inlet: Inlet::Cyclic,
         cavitation: Cavitation::Gumbel,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 

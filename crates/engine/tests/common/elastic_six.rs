@@ -94,6 +94,8 @@ impl ElasticSix {
                 inlet: Inlet::Cyclic,
                 cavitation,
                 film_shear: FilmShear::FullWidth,
+                finish: sommerfeld_film::Finish::Smooth,
+                elasticity: sommerfeld_film::Elasticity::Rigid,
             },
             supports: Supports::Each {
                 stiffness: [[5e8, 0.0], [0.0, 3e8]],

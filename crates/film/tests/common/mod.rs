@@ -26,6 +26,8 @@ pub fn big_end() -> Bearing {
         inlet: Inlet::Cyclic,
         cavitation: Cavitation::MassConserving,
         film_shear: FilmShear::FilmFraction,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 
@@ -82,6 +84,8 @@ pub fn unit_bearing(width_ratio: f64) -> Bearing {
         radial_clearance: 1e-3,
         cavitation: Cavitation::Reynolds,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
         ..big_end()
     }
 }

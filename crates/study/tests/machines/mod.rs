@@ -89,6 +89,8 @@ pub fn bearing(diameter: f64, width: f64, clearance: f64) -> Bearing {
         inlet: Inlet::Cyclic,
         cavitation: Cavitation::Reynolds,
         film_shear: FilmShear::FullWidth,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 

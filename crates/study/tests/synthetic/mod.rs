@@ -60,6 +60,8 @@ pub fn bearing() -> Bearing {
         inlet: Inlet::Cyclic,
         cavitation: Cavitation::MassConserving,
         film_shear: FilmShear::FilmFraction,
+        finish: sommerfeld_film::Finish::Smooth,
+        elasticity: sommerfeld_film::Elasticity::Rigid,
     }
 }
 

@@ -40,6 +40,8 @@ impl Checker<'_> {
             inlet: rules.as_ref()?.inlet,
             cavitation: rules.as_ref()?.cavitation,
             film_shear: rules.as_ref()?.film_shear,
+            finish: sommerfeld_film::Finish::Smooth,
+            elasticity: sommerfeld_film::Elasticity::Rigid,
         };
         self.check_pressures(&bearing);
         self.check_inlet(&bearing);
