@@ -6,10 +6,10 @@
 //!   through the viscosities at 40 and 100 degC. C. Walther, Erdoel und Teer 7 (1931) 382-384;
 //!   ASTM D341-20. The constant 0.7 alone holds for nu above 2 mm2/s; the standard adds terms below.
 //!
-//! Newtonian at every pressure: each law gives a zero derivative with respect to pressure except
-//! through the density.
+//! At ambient pressure and low shear: [`crate::PressureLaw`] and [`crate::ShearThinning`] add the
+//! rest. ASTM D341's kinematic viscosity is multiplied with the density at ambient pressure.
 
-use crate::{Derived, OilError, law::positive};
+use crate::{Derived, OilError, TemperatureRange, law::positive};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_10;
 
@@ -21,6 +21,17 @@ const T100: f64 = 373.15;
 const SHIFT: f64 = 0.7;
 /// mm2/s in one m2/s.
 const MM2_S: f64 = 1e6;
+/// Viscosity up to which Vogel's law is followed, Pa s: an oil this thick no longer pours.
+const THICKEST: f64 = 1e3;
+/// Highest temperature of Vogel's law, 250 degC, K: oils decay.
+const HOTTEST: f64 = 523.15;
+/// Kinematic viscosities of ASTM D341 with the shift of 0.7 alone, mm2/s.
+const D341_VISCOSITIES: [f64; 2] = [2.0, 2e7];
+/// Temperatures of ASTM D341, -70 to 370 degC, K.
+const D341_TEMPERATURES: TemperatureRange = TemperatureRange {
+    low: 203.15,
+    high: 643.15,
+};
 
 /// Law of the viscosity over temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -51,7 +62,56 @@ pub enum ViscosityLaw {
 }
 
 impl ViscosityLaw {
-    /// Dynamic viscosity, Pa s, at a temperature (K) for an oil of this density (kg/m3).
+    /// Vogel's law through three viscosities, `[K, Pa s]`, of rising temperature.
+    ///
+    /// # Errors
+    /// [`OilError`] where the points are no such oil's: not positive, not thinning as it warms, or
+    /// thinning ever faster.
+    pub fn vogel_through(points: [[f64; 2]; 3]) -> Result<Self, OilError> {
+        let [[t1, eta1], [t2, eta2], [t3, eta3]] = points;
+        for [temperature, viscosity] in points {
+            positive("temperature", temperature)?;
+            positive("viscosity", viscosity)?;
+        }
+        if !(t1 < t2 && t2 < t3 && eta1 > eta2 && eta2 > eta3) {
+            return Err(OilError::DoesNotThin);
+        }
+        // the ratio of the falls of ln eta is free of a and b and linear in c
+        let ratio = (eta1 / eta2).ln() / (eta2 / eta3).ln() * (t3 - t2) / (t2 - t1);
+        let c = (t3 - ratio * t1) / (ratio - 1.0);
+        let b = (eta1 / eta2).ln() * (t1 + c) * (t2 + c) / (t2 - t1);
+        let a = eta1 * (-b / (t1 + c)).exp();
+        let law = Self::Vogel { a, b, c };
+        if ratio <= 1.0 || t1 + c <= 0.0 {
+            return Err(OilError::NotFinite { name: "c" });
+        }
+        law.check()?;
+        Ok(law)
+    }
+
+    /// Temperatures at which the law holds: Vogel's from 1000 Pa s, where oil no longer pours, to
+    /// 250 degC; ASTM D341's from -70 to 370 degC as long as the oil has 2 to 2e7 mm2/s.
+    #[must_use]
+    pub fn temperature_range(&self) -> TemperatureRange {
+        match *self {
+            Self::Constant { .. } => TemperatureRange::ALL,
+            Self::Vogel { a, b, c } => TemperatureRange {
+                low: if a < THICKEST {
+                    (b / (THICKEST / a).ln() - c).max(0.0)
+                } else {
+                    f64::INFINITY
+                },
+                high: HOTTEST,
+            },
+            Self::AstmD341 { kv40, kv100 } => {
+                let line = WaltherLine::through(kv40, kv100);
+                let [high, low] = D341_VISCOSITIES.map(|nu| line.temperature(nu / MM2_S));
+                TemperatureRange { low, high }.and(D341_TEMPERATURES)
+            }
+        }
+    }
+
+    /// Dynamic viscosity, Pa s, at a temperature (K) for an oil of this density (kg/m3) there.
     #[must_use]
     pub fn dynamic(&self, temperature_k: f64, density: Derived) -> Derived {
         match *self {
@@ -129,6 +189,12 @@ impl WaltherLine {
         }
     }
 
+    /// Temperature, K, of a kinematic viscosity, m2/s.
+    fn temperature(&self, nu: f64) -> f64 {
+        let ordinate = (nu * MM2_S + SHIFT).log10().log10();
+        10_f64.powf((self.a - ordinate) / self.b)
+    }
+
     /// Kinematic viscosity, m2/s, and its slope, m2/(s K).
     fn at(&self, temperature_k: f64) -> (f64, f64) {
         let logarithm = 10_f64.powf(self.a - self.b * temperature_k.log10());
@@ -159,10 +225,7 @@ mod tests {
                 kv100: 11e-6,
             },
         ]
-        .map(|viscosity| Lubricant {
-            viscosity,
-            density: DensityLaw::Constant { density: DENSITY },
-        })
+        .map(|viscosity| Lubricant::newtonian(viscosity, DensityLaw::Constant { density: DENSITY }))
         .to_vec()
     }
 
@@ -202,13 +265,11 @@ mod tests {
                 .skip(1)
                 .map(|c| c.parse().unwrap())
                 .collect();
-            let oil = Lubricant {
-                viscosity: ViscosityLaw::AstmD341 {
-                    kv40: cells[0] / MM2_S,
-                    kv100: cells[1] / MM2_S,
-                },
-                density: DensityLaw::Constant { density: DENSITY },
+            let viscosity = ViscosityLaw::AstmD341 {
+                kv40: cells[0] / MM2_S,
+                kv100: cells[1] / MM2_S,
             };
+            let oil = Lubricant::newtonian(viscosity, DensityLaw::Constant { density: DENSITY });
             oil.check().unwrap();
             for (t, nu) in degc.iter().zip(&cells[4..]) {
                 let ours = oil.viscosity(273.15 + t, 0.0).value / DENSITY * MM2_S;
@@ -221,6 +282,39 @@ mod tests {
             rows += 1;
         }
         assert_eq!(rows, 2);
+    }
+
+    #[test]
+    fn vogel_passes_through_its_three_points() {
+        let points = [[303.15, 0.153], [333.15, 0.034], [373.15, 0.0091]];
+        let law = ViscosityLaw::vogel_through(points).unwrap();
+        for [t, eta] in points {
+            let ours = law.dynamic(t, Derived::constant(DENSITY)).value;
+            assert!((ours / eta - 1.0).abs() < 1e-12, "{t} {ours}");
+        }
+        let rising = [[303.15, 0.1], [333.15, 0.2], [373.15, 0.01]];
+        assert_eq!(
+            ViscosityLaw::vogel_through(rising),
+            Err(OilError::DoesNotThin)
+        );
+        let accelerating = [[303.15, 0.1], [333.15, 0.09], [373.15, 0.01]];
+        assert!(ViscosityLaw::vogel_through(accelerating).is_err());
+    }
+
+    #[test]
+    fn ranges_end_where_the_oil_stiffens_or_the_formula_does() {
+        let [constant, vogel, d341] = [0, 1, 2].map(|i| oils()[i].clone());
+        assert_eq!(constant.temperature_range(), TemperatureRange::ALL);
+        let coldest = vogel.temperature_range().low;
+        assert!((vogel.viscosity(coldest, 0.0).value / THICKEST - 1.0).abs() < 1e-9);
+        let range = d341.temperature_range();
+        assert!((d341.kinematic_viscosity(range.high) * MM2_S - 2.0).abs() < 1e-9);
+        assert!((203.15..273.15).contains(&range.low), "{range:?}");
+        assert!(d341.check_temperature(373.15).is_ok());
+        assert!(matches!(
+            d341.check_temperature(600.0),
+            Err(OilError::TemperatureOutside { .. })
+        ));
     }
 
     #[test]

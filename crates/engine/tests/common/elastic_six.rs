@@ -14,7 +14,7 @@ use sommerfeld_film::{
     ShortBearingFilm,
 };
 use sommerfeld_flex::CondensedShaft;
-use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
+use sommerfeld_oil::Lubricant;
 use std::ops::ControlFlow;
 
 /// Pa s.
@@ -129,12 +129,7 @@ impl ElasticSix {
         settings: &OrbitSettings,
         executor: &FilmExecutor<'_>,
     ) -> CoupledOrbits {
-        let oil = Lubricant {
-            viscosity: ViscosityLaw::Constant {
-                viscosity: VISCOSITY,
-            },
-            density: DensityLaw::Constant { density: 850.0 },
-        };
+        let oil = Lubricant::constant(VISCOSITY, 850.0);
         let count = self.train.layout.mains.len();
         let mut films: Vec<_> = (0..count).map(|_| self.film(film, &oil)).collect();
         let duty = LoadCycle {

@@ -14,7 +14,7 @@ use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmSolver, Outcome,
     ShortBearingFilm,
 };
-use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
+use sommerfeld_oil::Lubricant;
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
@@ -36,10 +36,7 @@ fn forces(angle: f64) -> Vec<[f64; 2]> {
 }
 
 fn oil() -> Lubricant {
-    Lubricant {
-        viscosity: ViscosityLaw::Constant { viscosity: 0.01 },
-        density: DensityLaw::Constant { density: 850.0 },
-    }
+    Lubricant::constant(0.01, 850.0)
 }
 
 fn reynolds_bearing() -> Bearing {

@@ -6,7 +6,7 @@ use sommerfeld_engine::{
     Role, Strokes,
 };
 use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet, Shape};
-use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
+use sommerfeld_oil::Lubricant;
 use sommerfeld_study::Study;
 use sommerfeld_study::input::{
     Analysis, EnginePlan, FilmModel, FilmSettings, LinearSolver, Machine, MachineBearing,
@@ -119,10 +119,7 @@ pub fn inline_plan(firing_order: &[usize], speeds: &[f64]) -> MachinePlan {
     ));
     MachinePlan {
         bearings: bearings.collect(),
-        lubricant: Lubricant {
-            viscosity: ViscosityLaw::Constant { viscosity: 0.010 },
-            density: DensityLaw::Constant { density: 850.0 },
-        },
+        lubricant: Lubricant::constant(0.010, 850.0),
         temperature: 373.15,
         speeds: speeds.iter().map(|rpm| rpm * RPM).collect(),
         orbit: OrbitPlan {

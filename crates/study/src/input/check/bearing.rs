@@ -273,10 +273,7 @@ impl Checker<'_> {
             Value::Number(viscosity) => ViscosityLaw::Constant { viscosity },
             _ => self.viscosity_law()?,
         };
-        let lubricant = Lubricant {
-            viscosity,
-            density: DensityLaw::Constant { density },
-        };
+        let lubricant = Lubricant::newtonian(viscosity, DensityLaw::Constant { density });
         if let Err(error) = lubricant.check() {
             let error = self.error_at("oil.viscosity", format!("the oil is none: {error}"));
             self.errors.push(error);
