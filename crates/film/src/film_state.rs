@@ -11,6 +11,7 @@ use crate::integrals::Units;
 use crate::journal_state::JournalState;
 use crate::linear::{Lanes, RingFactor, RingMatrix};
 use crate::mirror::Extent;
+use crate::passage::Passage;
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Around, Axial, Cell, Operator};
 use sommerfeld_oil::Lubricant;
@@ -36,8 +37,13 @@ pub(crate) struct FilmState {
     pub(crate) pressure: Vec<f64>,
     /// Pressure per cell, 1/s, and its derivative by the reduced one, where they differ.
     pub(crate) stiffened: Vec<[f64; 2]>,
-    /// Relation of the two at the film's temperature.
+    /// What the gap lets through, where it is not smooth or its oil not the same everywhere.
+    pub(crate) passage: Option<Passage>,
+    /// Contact pressure per cell, 1/s, and its derivative by the nominal H; empty without contact.
+    pub(crate) contact: Vec<[f64; 2]>,
+    /// Relation of pressure and reduced pressure at the film's temperature (K).
     pub(crate) reduced: ReducedPressure,
+    pub(crate) reduced_at: f64,
     /// A cell asks for more than the limit of the reduced pressure.
     pub(crate) exceeds_limit: bool,
     pub(crate) film_fraction: Vec<f64>,
@@ -106,7 +112,10 @@ impl FilmState {
             correction: zero.clone(),
             pressure: zero.clone(),
             stiffened: Vec::new(),
+            passage: None,
+            contact: Vec::new(),
             reduced: ReducedPressure::Same,
+            reduced_at: f64::NAN,
             exceeds_limit: false,
             film_fraction: zero.clone(),
             excess: zero.clone(),
@@ -137,6 +146,20 @@ impl FilmState {
     /// Reduced pressure of the film unit for a gauge pressure in Pa.
     fn relative_pressure(&self, bearing: &Bearing, pressure: f64) -> f64 {
         self.reduced.reduced(pressure - bearing.cavitation_pressure) / self.units.pressure
+    }
+
+    /// Contact pressure of every cell between rough surfaces.
+    pub(crate) fn touch(&mut self, bearing: &Bearing) {
+        if !bearing.finish.has_contact() {
+            return;
+        }
+        let (clearance, unit) = (self.units.clearance, self.units.pressure);
+        let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
+        self.contact.resize(nominal.len(), [0.0; 2]);
+        for (contact, height) in self.contact.iter_mut().zip(nominal) {
+            let pressure = bearing.finish.contact_pressure(height * clearance);
+            *contact = [pressure.value / unit, pressure.by_gap * clearance / unit];
+        }
     }
 
     /// The pressure (1/s) of a cell's unknown, or of its reduced pressure.
@@ -387,7 +410,8 @@ impl FilmState {
         let pressure = |k: usize| true_pressure(k) * units.pressure + bearing.cavitation_pressure;
         extent.unfold(m, pressure, &mut fields.pressure);
         extent.unfold(m, |k| self.film_fraction[k], &mut fields.film_fraction);
-        let thickness = |k: usize| self.gap.mean[k] * units.clearance;
+        let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
+        let thickness = |k: usize| nominal[k] * units.clearance;
         extent.unfold(m, thickness, &mut fields.film_thickness);
     }
 

@@ -566,7 +566,10 @@ impl SolvedFilm<'_> {
                     sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
                 }
             }
-            by.add(&sums, self.angles.faces[if speed > 0.0 { i + 1 } else { i }]);
+            by.add(
+                &sums,
+                self.angles.faces[if speed > 0.0 { i + 1 } else { i }],
+            );
         }
     }
 

@@ -23,8 +23,8 @@ mod film_state;
 pub mod finish;
 pub mod flow_factors;
 pub mod force;
-pub mod friction;
 pub mod frame;
+pub mod friction;
 pub mod gap;
 pub mod grid;
 mod height_integrals;
@@ -46,15 +46,20 @@ pub mod solver;
 pub mod supply;
 pub mod surfaces;
 
-pub use bearing::{Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet};
+pub use bearing::{
+    Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
+};
 pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
 pub use contact::{ContactLaw, ContactTable, GreenwoodTripp};
 pub use elastic::Elasticity;
 pub use finish::{Finish, RoughFinish};
-pub use flow_factors::{FlowFactors};
-pub use force::{Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary, Linearised, Outcome, Reaction, Step, Tangent};
-pub use grid::{Grid};
-pub use journal_state::{JournalState};
+pub use flow_factors::FlowFactors;
+pub use force::{
+    Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
+    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,
+};
+pub use grid::Grid;
+pub use journal_state::JournalState;
 pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
-pub use solver::{FilmSolver};
+pub use solver::FilmSolver;

@@ -81,9 +81,10 @@ impl Extent {
         Reaction {
             film_force: solved.film_force.map(|f| 2.0 * f),
             film_moment: [0.0; 2],
+            contact_force: solved.contact_force.map(|f| 2.0 * f),
+            contact_moment: [0.0; 2],
             friction_torque_journal: 2.0 * solved.friction_torque_journal,
             friction_torque_shell: 2.0 * solved.friction_torque_shell,
-            ..solved
         }
     }
 
@@ -120,6 +121,8 @@ impl Extent {
             side_flow: [solved.side_flow[0]; 2],
             feed_flow: 2.0 * solved.feed_flow,
             storage_rate: 2.0 * solved.storage_rate,
+            contact_load: 2.0 * solved.contact_load,
+            boundary_power: 2.0 * solved.boundary_power,
             ..solved
         }
     }

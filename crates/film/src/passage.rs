@@ -126,7 +126,10 @@ impl Passage {
         let low = state.oil.viscosity(temperature, 0.0).value;
         let seen = state.oil.viscosity_at_shear(temperature, 0.0, rate);
         // d(rate)/dH = -rate/H
-        (seen.value / low, -seen.by_shear_rate * rate / mean / seen.value)
+        (
+            seen.value / low,
+            -seen.by_shear_rate * rate / mean / seen.value,
+        )
     }
 
     fn fill_cells(&mut self, gap: &mut Gap, state: &PassageState<'_>) {
@@ -140,7 +143,11 @@ impl Passage {
                     let stress = factors.shear_over_gap(gap_m).value * state.clearance;
                     let difference = factors.shear_difference(gap_m).value / nominal;
                     // Where the surfaces overlap the factor is zero faster than the gap.
-                    let difference = if difference.is_finite() { difference } else { 0.0 };
+                    let difference = if difference.is_finite() {
+                        difference
+                    } else {
+                        0.0
+                    };
                     let curvature = mean.contact_factor_by_gap * state.clearance;
                     let slopes = [mean.contact_factor, curvature];
                     (mean.value / state.clearance, slopes, [stress, difference])
@@ -204,8 +211,7 @@ impl Passage {
             }
             let around = [(i + n - 1) % n * m + j, i % n * m + j];
             let (fluidity, temperature) = self.warm_fluidity(state, around.map(Some));
-            let (thinned, by_height) =
-                self.thinned(state, gap.around_transport[face], temperature);
+            let (thinned, by_height) = self.thinned(state, gap.around_transport[face], temperature);
             gap.around_cubed[face] *= fluidity / thinned;
             conducting -= by_height * carried_slope;
             let flow = state.mean_speed * gap.around_transport[face] + self.drag[face];

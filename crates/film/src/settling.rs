@@ -78,7 +78,10 @@ impl SetChange<'_> {
             (operator.conductance_around[k], operator.west(i, j)),
             (operator.conductance_around[k + m], operator.east(i, j)),
             (operator.conductance_axial[axial], (j > 0).then(|| k - 1)),
-            (operator.conductance_axial[axial + 1], (j + 1 < m).then_some(k + 1)),
+            (
+                operator.conductance_axial[axial + 1],
+                (j + 1 < m).then_some(k + 1),
+            ),
         ]
     }
 }

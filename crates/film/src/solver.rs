@@ -12,6 +12,7 @@
 use crate::bearing::{Bearing, Cavitation, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet, model_of};
 use crate::film_state::FilmState;
+use crate::finish::Finish;
 use crate::force::{
     Capabilities, Conditions, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary,
     Linearised, Outcome, Step, Tangent,
@@ -23,11 +24,13 @@ use crate::integrals::{SolvedFilm, Units, relative_motion};
 use crate::journal_state::JournalState;
 use crate::mirror::{Extent, half_of};
 use crate::narrowest::GapSearch;
+use crate::passage::{Passage, PassageState};
+use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Cell, Storage};
 use crate::settling::SetChange;
 use crate::supply::mark_fed_cells;
 use crate::surfaces::Surfaces;
-use sommerfeld_oil::Lubricant;
+use sommerfeld_oil::{Lubricant, ShearThinning};
 
 /// A film solved on a grid: the [`FilmForce`] with fields.
 pub struct FilmSolver {
@@ -147,8 +150,22 @@ impl FilmSolver {
             None => None,
         };
         let angles = AngleTables::new(&grid);
+        let factors = bearing.finish.flow_factors();
+        let factors = factors.map_err(|_| FilmError::Unsupported {
+            reason: "the roughness of the surfaces is outside what flow factors are known for",
+        })?;
+        if factors.is_some() && bearing.bore.has_steps() {
+            return Err(FilmError::Unsupported {
+                reason: "rough surfaces need a bore without steps: no offset halves",
+            });
+        }
+        let thins = lubricant.shear_thinning != ShearThinning::None;
+        let film = FilmState {
+            passage: Passage::new(&grid, factors, thins, false),
+            ..FilmState::new(bearing, lubricant, &grid, extent)
+        };
         Ok(Self {
-            film: FilmState::new(bearing, lubricant, &grid, extent),
+            film,
             bearing: bearing.clone(),
             lubricant: lubricant.clone(),
             closure: model_of(bearing.cavitation),
@@ -221,7 +238,8 @@ impl FilmSolver {
             return Err(FilmError::NoTilt);
         }
         let least = self.search.narrowest(&self.bearing, state);
-        if least.gap > 0.0 {
+        // Rough surfaces leave a mean gap wherever they are, and asperities that carry push back.
+        if least.gap > 0.0 || self.bearing.finish.has_contact() {
             return Ok(());
         }
         Err(FilmError::Contact {
@@ -307,7 +325,9 @@ impl FilmSolver {
             reaction,
             tangent,
             settled,
-            outcome: if settled && !self.keeps_conditions() {
+            outcome: if settled && self.film.exceeds_limit {
+                Outcome::NoSolution
+            } else if settled && !self.keeps_conditions() {
                 Outcome::NotConverged
             } else {
                 Outcome::Converged
@@ -342,7 +362,12 @@ impl FilmSolver {
             Frame::Shell => ([x, y], [turn_x, turn_y]),
             Frame::LineOfCentres => ([x.hypot(y); 2], [turn_x.hypot(turn_y); 2]),
         };
-        Some([size[0] * force, size[1] * force, turn[0] * moment, turn[1] * moment])
+        Some([
+            size[0] * force,
+            size[1] * force,
+            turn[0] * moment,
+            turn[1] * moment,
+        ])
     }
 
     /// Stage 1 to 3. `state` is in the frame of the grid.
@@ -354,11 +379,29 @@ impl FilmSolver {
             self.lubricant.viscosity(temperature, 0.0).value,
         );
         film.density = self.lubricant.density(temperature, 0.0).value;
+        if film.reduced_at != temperature {
+            film.reduced = ReducedPressure::of(&self.lubricant, temperature);
+            film.reduced_at = temperature;
+        }
         let (position, rate) = relative_motion(&self.bearing, state);
         self.angles
             .fill_gap(&self.grid, &position, &rate, &mut film.gap);
         self.surfaces.turn_to(&self.bearing, &self.grid, state);
         self.surfaces.add_to(&self.grid, state, &mut film.gap);
+        if let Some(passage) = &mut film.passage {
+            let around = PassageState {
+                grid: &self.grid,
+                oil: &self.lubricant,
+                temperature,
+                field: None,
+                clearance: film.units.clearance,
+                radius: film.units.radius,
+                mean_speed: state.mean_speed(),
+                sliding: state.journal_speed - state.shell_speed,
+            };
+            passage.narrow(&mut film.gap, &around);
+        }
+        film.touch(&self.bearing);
 
         mark_fed_cells(
             &self.bearing,
@@ -374,6 +417,9 @@ impl FilmSolver {
         let storage = film_storage(self.closure.as_ref(), step, &film.old_content);
         film.operator
             .update(&self.grid, &film.gap, state.mean_speed(), storage);
+        if let Some(passage) = &film.passage {
+            passage.amend(&mut film.operator, &self.grid);
+        }
         film.operator
             .hold_feeds_to_edges(&self.grid, &film.set.cells);
     }
@@ -396,6 +442,10 @@ impl FilmSolver {
             operator: &self.film.operator,
             set: &self.film.set,
             pressure: &self.film.pressure,
+            stiffened: &self.film.stiffened,
+            compression: &self.lubricant.density_pressure,
+            passage: self.film.passage.as_ref(),
+            contact: &self.film.contact,
             film_fraction: &self.film.film_fraction,
             excess: &self.film.excess,
             units: self.film.units,
@@ -450,7 +500,13 @@ impl FilmForce for FilmSolver {
     }
 
     fn minimum_gap(&self, state: &JournalState) -> f64 {
-        self.search.narrowest(&self.bearing, state).gap
+        let nominal = self.search.narrowest(&self.bearing, state).gap;
+        match &self.bearing.finish {
+            Finish::Rough(rough) if rough.contact.is_on() => {
+                softened(nominal, rough.roughness.composite())
+            }
+            _ => nominal,
+        }
     }
 
     fn linearise(
@@ -557,6 +613,17 @@ impl FilmForce for FilmSolver {
     fn restore(&mut self, history: &FilmHistory) {
         self.film.content.clear();
         self.film.content.extend_from_slice(&history.content);
+    }
+}
+
+/// Room between rough surfaces (m) at a nominal gap: the gap where it is wide, a positive rest where the
+/// surfaces overlap, so that steps measured in it neither stop nor jump at contact.
+fn softened(nominal: f64, sigma: f64) -> f64 {
+    let over = nominal / sigma;
+    if over > 30.0 {
+        nominal
+    } else {
+        sigma * over.exp().ln_1p()
     }
 }
 

@@ -5,9 +5,10 @@ mod common;
 
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
-    Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmForce, FilmSolver, Inlet,
-    JournalState, Reaction, Step,
+    Bearing, Carrier, Cavitation, ContactLaw, Feed, FeedLine, FeedShape, FilmForce, FilmSolver,
+    Finish, GreenwoodTripp, Inlet, JournalState, Reaction, RoughFinish, Roughness, Step,
 };
+use sommerfeld_oil::{Lubricant, PressureLaw, ShearThinning};
 
 fn state(c: f64) -> JournalState {
     JournalState {
@@ -47,9 +48,24 @@ fn worst_deviation(bearing: &Bearing, step: Step) -> f64 {
 
 /// The same with differences over twice this share of the clearance.
 fn worst_deviation_within(bearing: &Bearing, step: Step, nudged: f64) -> f64 {
-    let c = bearing.radial_clearance;
-    let centre = state(c);
-    let mut film = FilmSolver::new(bearing, &oil(), [64, 16]).unwrap();
+    worst_deviation_of(
+        bearing,
+        &oil(),
+        &state(bearing.radial_clearance),
+        step,
+        nudged,
+    )
+}
+
+fn worst_deviation_of(
+    bearing: &Bearing,
+    oil: &Lubricant,
+    centre: &JournalState,
+    step: Step,
+    nudged: f64,
+) -> f64 {
+    let (c, centre) = (bearing.radial_clearance, *centre);
+    let mut film = FilmSolver::new(bearing, oil, [64, 16]).unwrap();
     if let Step::Implicit { duration, after } = step {
         let duration = duration - after;
         // From where the motion came: no cell is left exactly at the corner of its two conditions.
@@ -225,4 +241,92 @@ fn the_lines_are_at_work() {
         assert!((0.05..0.999).contains(&lost), "{flow:?}");
     }
     assert_eq!(solved(starved)[0].pressure, 0.0);
+}
+
+fn rough(contact: f64) -> Finish {
+    Finish::Rough(RoughFinish {
+        roughness: Roughness {
+            journal: 0.4e-6,
+            shell: 0.8e-6,
+            peklenik_journal: 3.0,
+            peklenik_shell: 1.0,
+        },
+        contact: ContactLaw::GreenwoodTripp(GreenwoodTripp {
+            factor: contact,
+            asperity_product: 0.05,
+            modulus: 53.3e9,
+        }),
+        boundary_friction: 0.05,
+    })
+}
+
+/// An oil that thickens under pressure and thins under shear.
+fn engine_oil() -> Lubricant {
+    Lubricant {
+        viscosity_pressure: PressureLaw::Barus { alpha: 9.5e-9 },
+        shear_thinning: ShearThinning::Cross {
+            second_newtonian_ratio: 0.4,
+            critical_shear_rate: 2e6,
+            exponent: 0.8,
+            reference: None,
+        },
+        ..oil()
+    }
+}
+
+#[test]
+fn tangents_of_rough_surfaces_and_engine_oil_equal_differences() {
+    let steps = [
+        Step::Steady,
+        Step::Implicit {
+            duration: 1e-4,
+            after: 5e-5,
+        },
+    ];
+    for cavitation in [
+        Cavitation::Gumbel,
+        Cavitation::Reynolds,
+        Cavitation::MassConserving,
+    ] {
+        for (step, finish) in steps
+            .into_iter()
+            .flat_map(|s| [(s, Finish::Smooth), (s, rough(1e-3))])
+        {
+            let bearing = Bearing {
+                cavitation,
+                feeds: vec![feed_hole()],
+                finish: finish.clone(),
+                ..big_end()
+            };
+            let centre = state(bearing.radial_clearance);
+            let deviation = worst_deviation_of(&bearing, &engine_oil(), &centre, step, 1e-6);
+            assert!(
+                deviation < 2e-5,
+                "{cavitation:?} {step:?} {finish:?}: {deviation:e}"
+            );
+        }
+    }
+}
+
+/// Beyond nominal contact the asperities carry, and the tangents hold there as anywhere.
+#[test]
+fn tangents_hold_where_the_surfaces_overlap() {
+    let bearing = Bearing {
+        cavitation: Cavitation::Reynolds,
+        finish: rough(1e-3),
+        ..big_end()
+    };
+    let c = bearing.radial_clearance;
+    let centre = JournalState {
+        position: [0.8 * c, 0.61 * c],
+        tilt: [0.0; 2],
+        ..state(c)
+    };
+    let mut film = FilmSolver::new(&bearing, &engine_oil(), [64, 16]).unwrap();
+    let answer = film.react(&centre, Step::Steady, &conditions()).unwrap();
+    let contact = answer.reaction.contact_force;
+    assert!(contact[0].hypot(contact[1]) > 0.0);
+    assert!(film.summary().minimum_film_thickness.value < 0.0);
+    let deviation = worst_deviation_of(&bearing, &engine_oil(), &centre, Step::Steady, 1e-7);
+    assert!(deviation < 2e-5, "{deviation:e}");
 }

@@ -15,8 +15,7 @@
 use super::kernels::{
     Lanes, add_diagonal, add_lanes, add_product, apply_inverse, multiply_left, multiply_right,
     subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled,
-    subtract_scaled_line, sweep,
-    two_stations,
+    subtract_scaled_line, sweep, two_stations,
 };
 
 /// Five-point matrix in row form: entry `west[k]` of row `k` multiplies the unknown of the cell
