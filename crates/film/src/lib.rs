@@ -33,6 +33,7 @@ pub mod journal_state;
 pub mod linear;
 pub mod mirror;
 pub mod narrowest;
+pub mod nonlinear;
 pub mod passage;
 pub mod peak;
 pub mod reduced_pressure;
