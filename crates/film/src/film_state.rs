@@ -3,10 +3,12 @@
 
 use crate::bearing::{Bearing, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet};
+use crate::energy::HeatAccount;
 use crate::feed_lines::FeedLines;
 use crate::force::{Conditions, FeedFlow, Reaction, Step};
 use crate::gap::Gap;
 use crate::grid::Grid;
+use crate::heat::FilmHeat;
 use crate::integrals::Units;
 use crate::journal_state::JournalState;
 use crate::linear::{Lanes, RingFactor, RingMatrix};
@@ -80,6 +82,10 @@ pub(crate) struct FilmState {
     pub(crate) density: f64,
     pub(crate) feed_flows: Vec<FeedFlow>,
     pub(crate) fields: Fields,
+    /// Temperature per cell, K, where it is a field.
+    pub(crate) temperature: Option<Vec<f64>>,
+    pub(crate) account: Option<HeatAccount>,
+    pub(crate) heat: FilmHeat,
 }
 
 /// The fields in SI, as the caller sees them.
@@ -89,6 +95,7 @@ pub(crate) struct Fields {
     pub(crate) pressure: Vec<f64>,
     pub(crate) film_fraction: Vec<f64>,
     pub(crate) film_thickness: Vec<f64>,
+    pub(crate) temperature: Vec<f64>,
 }
 
 impl FilmState {
@@ -158,7 +165,11 @@ impl FilmState {
                 pressure: all.clone(),
                 film_fraction: all.clone(),
                 film_thickness: all,
+                temperature: Vec::new(),
             },
+            temperature: None,
+            account: None,
+            heat: FilmHeat::default(),
         }
     }
 
@@ -539,6 +550,10 @@ impl FilmState {
         let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
         let thickness = |k: usize| nominal[k] * units.clearance;
         extent.unfold(m, thickness, &mut fields.film_thickness);
+        if let Some(temperature) = &self.temperature {
+            fields.temperature.resize(fields.pressure.len(), 0.0);
+            extent.unfold(m, |k| temperature[k], &mut fields.temperature);
+        }
     }
 
     pub(crate) fn complementarity_violation(&self) -> f64 {

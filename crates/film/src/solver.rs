@@ -11,11 +11,12 @@
 
 use crate::bearing::{Bearing, Cavitation, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet, model_of};
+use crate::energy::{HeatAccount, Surroundings};
 use crate::film_state::FilmState;
 use crate::finish::Finish;
 use crate::force::{
     Capabilities, Conditions, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary,
-    Linearised, Outcome, Step, Tangent,
+    Linearised, Outcome, Step, Tangent, Warmed,
 };
 use crate::frame::Frame;
 use crate::gap::AngleTables;
@@ -432,7 +433,7 @@ impl FilmSolver {
                 grid: &self.grid,
                 oil: &self.lubricant,
                 temperature,
-                field: None,
+                field: film.temperature.as_deref(),
                 clearance: film.units.clearance,
                 radius: film.units.radius,
                 mean_speed: state.mean_speed(),
@@ -632,7 +633,59 @@ impl FilmForce for FilmSolver {
             pressure: &fields.pressure,
             film_fraction: &fields.film_fraction,
             film_thickness: &fields.film_thickness,
+            temperature: &fields.temperature,
         })
+    }
+
+    fn account_heat(&mut self, duration: f64) {
+        let periodic = self.bearing.inlet == Inlet::Cyclic;
+        let mut heat = std::mem::take(&mut self.film.heat);
+        let turned = self.frame.turn(&self.film.state);
+        let local = self.frame.to_grid(&self.film.state, turned);
+        heat.take(&self.solved(), &local);
+        let feeds = self.bearing.feeds.len() + usize::from(!periodic);
+        let radius = self.bearing.radius();
+        let account = self
+            .film
+            .account
+            .get_or_insert_with(|| HeatAccount::new(&self.grid, radius, periodic, feeds));
+        account.add(&heat.instant(&self.film.fed_by), duration);
+        self.film.heat = heat;
+    }
+
+    fn warm(&mut self, surroundings: &Surroundings<'_>, share: f64) -> Option<Warmed> {
+        let account = self.film.account.as_mut()?;
+        let found = account.temperature(surroundings)?;
+        account.clear();
+        if self.film.passage.is_none() {
+            self.film.passage = Passage::new(&self.grid, None, false, true);
+        }
+        let reference = surroundings.supply.first().copied();
+        let reference = reference.unwrap_or(surroundings.ambient);
+        let cells = self
+            .film
+            .temperature
+            .get_or_insert_with(|| vec![reference; found.cells.len()]);
+        let mut warmed = Warmed {
+            outlet: found.outlet,
+            balance: self.extent.energy(found.balance),
+            hottest: f64::NEG_INFINITY,
+            ..Warmed::default()
+        };
+        for (cell, led_to) in cells.iter_mut().zip(&found.cells) {
+            warmed.change = warmed.change.max((led_to - *cell).abs());
+            *cell += share * (led_to - *cell);
+            warmed.hottest = warmed.hottest.max(*cell);
+        }
+        let m = self.grid.n_axial();
+        let (mut sum, mut area) = (0.0, 0.0);
+        for (k, cell) in cells.iter().enumerate() {
+            sum += cell * self.grid.area(k / m, k % m);
+            area += self.grid.area(k / m, k % m);
+        }
+        warmed.mean = sum / area;
+        self.film.is_warm = true;
+        Some(warmed)
     }
 
     fn accept_step(&mut self) {
