@@ -8,6 +8,7 @@ mod dense;
 pub mod equilibrium;
 pub mod expansion;
 pub mod heat_balance;
+pub mod heat_field;
 pub mod load_cycle;
 pub mod motion;
 pub mod orbit;
@@ -23,6 +24,7 @@ pub use cycle_table::{CycleTable, HeldTilt};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 pub use expansion::{Expansion, PressedShell, ShellFit};
 pub use heat_balance::{FilmHeat, HeatBalanced, HeatPath, HeatTrial};
+pub use heat_field::{HeatFieldSettings, WarmEquilibrium, warm_equilibrium};
 pub use load_cycle::{
     CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle, closing_edge,
 };

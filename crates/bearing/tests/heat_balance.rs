@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
 use sommerfeld_bearing::{
-    EquilibriumRequest, EquilibriumSettings, FilmHeat, HeatPath, find_equilibrium,
+    EquilibriumRequest, EquilibriumSettings, FilmHeat, HeatFieldSettings, HeatPath,
+    find_equilibrium, warm_equilibrium,
 };
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Ends, FilmError, FilmShear, FilmSolver, Inlet, JournalState,
-    Outcome, Shape,
+    Outcome, Shape, Surroundings,
 };
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
 use std::f64::consts::PI;
@@ -32,29 +33,34 @@ fn bearing() -> Bearing {
     }
 }
 
-#[test]
-fn the_reference_bearing_runs_at_its_effective_temperature() {
-    let oil = Lubricant {
-        viscosity: ViscosityLaw::Vogel {
-            a: 1.3e-4,
-            b: 900.0,
-            c: 110.0 - KELVIN,
-        },
-        density: DensityLaw::Constant { density: 900.0 },
+fn oil() -> Lubricant {
+    let viscosity = ViscosityLaw::Vogel {
+        a: 1.3e-4,
+        b: 900.0,
+        c: 110.0 - KELVIN,
     };
-    let bearing = bearing();
-    let mut film = FilmSolver::following(&bearing, &oil, [192, 48], 0.6).unwrap();
-    let speed = 2000.0 * PI / 30.0;
-    let request = EquilibriumRequest {
+    Lubricant::newtonian(viscosity, DensityLaw::Constant { density: 900.0 })
+}
+
+fn request() -> EquilibriumRequest {
+    EquilibriumRequest {
         load: [36e3, 0.0],
         moment: None,
         frame: JournalState {
-            journal_speed: speed,
+            journal_speed: 2000.0 * PI / 30.0,
             ..JournalState::default()
         },
         start: None,
         settings: EquilibriumSettings::default(),
-    };
+    }
+}
+
+#[test]
+fn the_reference_bearing_runs_at_its_effective_temperature() {
+    let oil = oil();
+    let bearing = bearing();
+    let mut film = FilmSolver::following(&bearing, &oil, [192, 48], 0.6).unwrap();
+    let request = request();
     let path = HeatPath {
         supply_temperature: KELVIN + 58.0,
         conductance: 0.0,
@@ -95,4 +101,51 @@ fn the_reference_bearing_runs_at_its_effective_temperature() {
     assert!((rest.summary.power_loss() / 1733.0 - 1.0).abs() < 0.01);
     assert!((flow / 4.099e-5 - 1.0).abs() < 0.01);
     assert!((film / 14.24e-6 - 1.0).abs() < 0.01);
+}
+
+/// The temperatures of the film balance their heat, and what leaves is as much warmer as the heat balance
+/// says.
+#[test]
+fn the_field_of_temperature_agrees_with_the_heat_balance() {
+    let (bearing, oil) = (bearing(), oil());
+    let mut film = FilmSolver::following(&bearing, &oil, [128, 32], 0.6).unwrap();
+    let supply = [KELVIN + 58.0];
+    let surroundings = Surroundings {
+        volumetric_heat: 1.8e6,
+        supply: &supply,
+        ambient: supply[0],
+        carry_over: 1.0,
+        wall: (0.0, supply[0]),
+    };
+    let conditions = Conditions {
+        temperature: KELVIN + 69.74,
+        feed_pressures: None,
+    };
+    let found = warm_equilibrium(
+        &mut film,
+        &bearing,
+        &request(),
+        &conditions,
+        &surroundings,
+        &HeatFieldSettings::default(),
+    )
+    .unwrap();
+    let warmed = found.warmed;
+    assert_eq!(found.outcome, Outcome::Converged);
+    assert!(warmed.balance.relative_error() < 1e-8);
+    // The cells' heat is the film's power, and all of it leaves with the oil at the sides.
+    let summary = found.rest.summary;
+    let power = summary.power_loss();
+    assert!((warmed.balance.generated / power - 1.0).abs() < 1e-9);
+    let flow = summary.side_flow[0] + summary.side_flow[1];
+    let rise = warmed.outlet - supply[0];
+    let by_balance = power / (surroundings.volumetric_heat * flow);
+    // Within what the last round still changed.
+    assert!(
+        (rise / by_balance - 1.0).abs() < 1e-3,
+        "{rise} {by_balance}"
+    );
+    // Oil that comes round again warms the inlet: hotter than one temperature for all, and less power.
+    assert!(warmed.mean > KELVIN + 69.74 && power < 1733.0);
+    assert!(warmed.hottest < KELVIN + 130.0);
 }
