@@ -9,7 +9,7 @@ use crate::gap::Gap;
 use crate::grid::Grid;
 use crate::integrals::Units;
 use crate::journal_state::JournalState;
-use crate::linear::{Lanes, RingFactor, RingMatrix};
+use crate::linear::{RingFactor, RingMatrix};
 use crate::mirror::Extent;
 use crate::reynolds::{Around, Axial, Cell, Operator};
 use sommerfeld_oil::Lubricant;
@@ -36,8 +36,8 @@ pub(crate) struct FilmState {
     pub(crate) excess: Vec<f64>,
     /// Largest flow of the last balance, 1/s.
     pub(crate) flow_scale: f64,
-    /// Adjoints of force and moment, per cell.
-    pub(crate) adjoints: Vec<Lanes>,
+    /// Adjoints of force and moment, per cell as many as the extent has outputs.
+    pub(crate) adjoints: Vec<f64>,
     /// States of the cells that were solved, before the set moved on.
     pub(crate) solved_cells: Vec<Cell>,
     /// What the last reaction lacks to that of the settled film, N and N m, where it is known.
@@ -100,7 +100,7 @@ impl FilmState {
             film_fraction: zero.clone(),
             excess: zero.clone(),
             flow_scale: 0.0,
-            adjoints: vec![[0.0; 4]; n * m],
+            adjoints: vec![0.0; extent.outputs() * n * m],
             solved_cells: vec![Cell::Full; n * m],
             unsettled: None,
             content: Vec::with_capacity(n * m),

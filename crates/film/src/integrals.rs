@@ -400,12 +400,13 @@ impl SolvedFilm<'_> {
         [half((i + n - 1) % n, i), half(i, (i + 1) % n)]
     }
 
-    /// Derivatives of force and moment for this set, by the adjoints of the four outputs:
+    /// Derivatives of force and moment for this set, by the adjoints of its outputs, the
+    /// force alone or the moment too:
     /// `dF/dq = -y . dR/dq` with the balance R and `M^T y = dF/dP`. `adjoints` per cell, one lane per
     /// output, already zero where the equation is not a balance.
     #[must_use]
-    pub fn tangent(&self, adjoints: &[Lanes], storage: Storage<'_>) -> Tangent {
-        let (mut by_position, mut by_rate) = (Sensitivity::default(), Sensitivity::default());
+    pub fn tangent<const L: usize>(&self, adjoints: &[Lanes<L>], storage: Storage<'_>) -> Tangent {
+        let (mut by_position, mut by_rate) = (Sensitivity::<L>::new(), Sensitivity::<L>::new());
         self.sensitivity_around(adjoints, &mut by_position);
         self.sensitivity_axial(adjoints, &mut by_position);
         match storage {
@@ -426,7 +427,7 @@ impl SolvedFilm<'_> {
         }
     }
 
-    fn sensitivity_around(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+    fn sensitivity_around<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let is_ring = self.operator.west(0, 0).is_some();
         let last = if is_ring { n } else { n + 1 };
@@ -437,7 +438,7 @@ impl SolvedFilm<'_> {
                 _ => Some(i - 1),
             };
             let behind = (i < n).then_some(i);
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let face = i * m + j;
                 let [before, behind] = [before, behind].map(|i| i.map(|i| i * m + j));
@@ -456,14 +457,14 @@ impl SolvedFilm<'_> {
                 let (conducting, carrying) = self.gap.relative_slopes(face, &mut steps);
                 let conducted = conducting * self.operator.conductance_around[face];
                 let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
-                let value = |cell: Option<usize>| cell.map_or([0.0; 4], |k| adjoints[k]);
+                let value = |cell: Option<usize>| cell.map_or([0.0; L], |k| adjoints[k]);
                 sums.add(value(before), value(behind), by_height, self.grid.axial[j]);
             }
             by.add(&sums, self.angles.faces[i]);
         }
     }
 
-    fn sensitivity_axial(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+    fn sensitivity_axial<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         for i in 0..n {
             let gap = &self.gap.axial[i * (m + 1)..(i + 1) * (m + 1)];
@@ -471,16 +472,16 @@ impl SolvedFilm<'_> {
             let pressure = &self.pressure[i * m..(i + 1) * m];
             let adjoints = &adjoints[i * m..(i + 1) * m];
             let faces = &self.grid.axial_faces;
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             let first = 3.0 * self.set_flow_at_end(i, 0) / gap[0];
-            sums.add([0.0; 4], adjoints[0], first, faces[0]);
+            sums.add([0.0; L], adjoints[0], first, faces[0]);
             for j in 1..m {
                 let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
                 let by_height = 3.0 * flow / gap[j];
                 sums.add(adjoints[j - 1], adjoints[j], by_height, faces[j]);
             }
             let last = 3.0 * self.set_flow_at_end(i, m) / gap[m];
-            sums.add(adjoints[m - 1], [0.0; 4], last, faces[m]);
+            sums.add(adjoints[m - 1], [0.0; L], last, faces[m]);
             by.add(&sums, self.angles.centres[i]);
         }
     }
@@ -505,15 +506,20 @@ impl SolvedFilm<'_> {
 
     /// `per_time`: 1 for rates of change; 1/duration for the gap and after/duration for its rate in
     /// steps.
-    fn sensitivity_storage(&self, adjoints: &[Lanes], per_time: f64, by: &mut Sensitivity) {
+    fn sensitivity_storage<const L: usize>(
+        &self,
+        adjoints: &[Lanes<L>],
+        per_time: f64,
+        by: &mut Sensitivity<L>,
+    ) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let k = i * m + j;
                 if !self.gains_limited(k) {
                     let by_height = per_time * self.film_fraction[k] * self.grid.area(i, j);
-                    sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
+                    sums.add(adjoints[k], [0.0; L], by_height, self.grid.axial[j]);
                 }
             }
             by.add(&sums, self.angles.means[i]);
@@ -527,16 +533,16 @@ impl SolvedFilm<'_> {
     }
 
     /// The limited gain follows the gap at the face that the cell drains through.
-    fn sensitivity_limited_storage(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+    fn sensitivity_limited_storage<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
         let m = self.grid.n_axial();
         let speed = self.operator.mean_speed;
         for i in 0..self.grid.n_around() {
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let k = i * m + j;
                 if self.gains_limited(k) {
                     let by_height = -speed.abs() * self.grid.area(i, j) * self.film_fraction[k];
-                    sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
+                    sums.add(adjoints[k], [0.0; L], by_height, self.grid.axial[j]);
                 }
             }
             by.add(&sums, self.angles.faces[if speed > 0.0 { i + 1 } else { i }]);
@@ -545,7 +551,11 @@ impl SolvedFilm<'_> {
 
     /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell whose
     /// P is an unknown that acts on the journal (`loaded`).
-    pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Lanes]) {
+    pub fn output_weights<const L: usize>(
+        &self,
+        loaded: impl Fn(usize) -> bool,
+        weights: &mut [Lanes<L>],
+    ) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
             for j in 0..m {
@@ -553,7 +563,7 @@ impl SolvedFilm<'_> {
                 weights[k] = if loaded(k) {
                     self.output_weight(k)
                 } else {
-                    [0.0; 4]
+                    [0.0; L]
                 };
             }
         }
@@ -561,46 +571,63 @@ impl SolvedFilm<'_> {
 
     /// Derivative of force and moment with respect to P of a cell.
     #[must_use]
-    pub fn output_weight(&self, cell: usize) -> Lanes {
+    pub fn output_weight<const L: usize>(&self, cell: usize) -> Lanes<L> {
         let m = self.grid.n_axial();
         let (i, j) = (cell / m, cell % m);
         let [cos, sin] = self.angles.means[i];
         let area = self.grid.area(i, j);
         let lever = area * self.grid.axial[j];
-        [-cos * area, -sin * area, sin * lever, -cos * lever]
+        let all = [-cos * area, -sin * area, sin * lever, -cos * lever];
+        std::array::from_fn(|output| all[output])
     }
 }
 
-/// What one station gives to the four outputs per rise of H there: in the mid-plane, and times zeta.
-#[derive(Debug, Clone, Copy, Default)]
-struct StationSums {
-    even: Lanes,
-    tilting: Lanes,
+/// What one station gives to the outputs per rise of H there: in the mid-plane, and times zeta.
+#[derive(Debug, Clone, Copy)]
+struct StationSums<const L: usize> {
+    even: Lanes<L>,
+    tilting: Lanes<L>,
 }
 
-impl StationSums {
+impl<const L: usize> StationSums<L> {
+    fn new() -> Self {
+        Self {
+            even: [0.0; L],
+            tilting: [0.0; L],
+        }
+    }
+
     /// Adds the share of one face (adjoints before and behind it) or cell, given the derivative of
     /// its flow by H.
     #[inline]
-    fn add(&mut self, before: Lanes, behind: Lanes, by_height: f64, zeta: f64) {
-        for output in 0..4 {
+    fn add(&mut self, before: Lanes<L>, behind: Lanes<L>, by_height: f64, zeta: f64) {
+        for output in 0..L {
             let drop = (before[output] - behind[output]) * by_height;
             self.even[output] += drop;
-            self.tilting[output] += zeta * drop;
+            // Without moments among the outputs there is no tilt.
+            if L == 4 {
+                self.tilting[output] += zeta * drop;
+            }
         }
     }
 }
 
-/// Derivatives of the four outputs being summed: one row of lanes (outputs) per motion.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sensitivity {
-    by_motion: [Lanes; 4],
+/// Derivatives of the outputs being summed: one row of lanes (outputs) per motion.
+#[derive(Debug, Clone, Copy)]
+struct Sensitivity<const L: usize> {
+    by_motion: [Lanes<L>; 4],
 }
 
-impl Sensitivity {
+impl<const L: usize> Sensitivity<L> {
+    fn new() -> Self {
+        Self {
+            by_motion: [[0.0; L]; 4],
+        }
+    }
+
     /// Adds a station. H falls by `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`, and
     /// the output is minus the adjoint times the balance: the two signs cancel.
-    fn add(&mut self, sums: &StationSums, [cos, sin]: [f64; 2]) {
+    fn add(&mut self, sums: &StationSums<L>, [cos, sin]: [f64; 2]) {
         let motions = [
             (cos, &sums.even),
             (sin, &sums.even),
@@ -614,18 +641,20 @@ impl Sensitivity {
         }
     }
 
-    /// As rows of outputs by motions, SI.
+    /// As rows of outputs by motions, SI; rows of what is no output are zero.
     fn in_units(&self, units: &Units) -> [[f64; 4]; 4] {
         let force = units.pressure * units.area;
         let moment = force * units.radius;
         let outputs = [force, force, moment, moment];
         let (per_length, per_tilt) = (1.0 / units.clearance, units.radius / units.clearance);
         let inputs = [per_length, per_length, per_tilt, per_tilt];
-        std::array::from_fn(|output| {
-            std::array::from_fn(|motion| {
-                self.by_motion[motion][output] * outputs[output] * inputs[motion]
-            })
-        })
+        let mut rows = [[0.0; 4]; 4];
+        for (output, row) in rows.iter_mut().enumerate().take(L) {
+            for (motion, value) in row.iter_mut().enumerate() {
+                *value = self.by_motion[motion][output] * outputs[output] * inputs[motion];
+            }
+        }
+        rows
     }
 }
 

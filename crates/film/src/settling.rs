@@ -18,7 +18,7 @@ use crate::reynolds::{Cell, Operator};
 
 /// A solved film before and after its set moved on.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct SetChange<'a> {
+pub(crate) struct SetChange<'a, const L: usize> {
     pub(crate) operator: &'a Operator,
     /// State of the cells that was solved.
     pub(crate) solved: &'a [Cell],
@@ -28,10 +28,10 @@ pub(crate) struct SetChange<'a> {
     /// Entering beyond leaving per cell, 1/s.
     pub(crate) excess: &'a [f64],
     /// Adjoints of the outputs.
-    pub(crate) adjoints: &'a [Lanes],
+    pub(crate) adjoints: &'a [Lanes<L>],
 }
 
-impl SetChange<'_> {
+impl<const L: usize> SetChange<'_, L> {
     /// Cells that changed their state.
     fn cells(&self) -> impl Iterator<Item = usize> {
         let states = self.solved.iter().zip(&self.next.cells).enumerate();
@@ -44,8 +44,8 @@ impl SetChange<'_> {
     }
 
     /// Size of the change of each output, given the derivative of the outputs by P of a cell.
-    pub(crate) fn outputs(&self, weight: impl Fn(usize) -> Lanes) -> Lanes {
-        let mut sizes = [0.0; 4];
+    pub(crate) fn outputs(&self, weight: impl Fn(usize) -> Lanes<L>) -> Lanes<L> {
+        let mut sizes = [0.0; L];
         for k in self.cells() {
             let faces = self.faces(k);
             let own: f64 = faces.iter().map(|(conductance, _)| conductance).sum();

@@ -301,7 +301,10 @@ impl FilmSolver {
         let moved = self.film.advance_set(self.closure.as_ref());
         let settled = moved == 0;
         if !settled && wanted == Wanted::Tangent {
-            self.film.unsettled = self.lacking(moved);
+            self.film.unsettled = match self.extent {
+                Extent::Whole => self.lacking::<4>(moved),
+                Extent::Half => self.lacking::<2>(moved),
+            };
         }
         Linearised {
             reaction,
@@ -317,7 +320,7 @@ impl FilmSolver {
 
     /// What the reaction lacks to that of the set that comes next, N and N m; `None` where more than
     /// cells changed, or where a change is not one of a pressure alone.
-    fn lacking(&self, moved: usize) -> Option<[f64; 4]> {
+    fn lacking<const L: usize>(&self, moved: usize) -> Option<[f64; 4]> {
         let film = &self.film;
         if self.closure.conserves_mass() || self.closure.cuts_pressures() {
             return None;
@@ -328,13 +331,16 @@ impl FilmSolver {
             next: &film.set,
             pressure: &film.pressure,
             excess: &film.excess,
-            adjoints: &film.adjoints,
+            adjoints: film.adjoints.as_chunks::<L>().0,
         };
         if change.count() != moved {
             return None;
         }
         let solved = self.solved();
-        let [x, y, turn_x, turn_y] = change.outputs(|k| solved.output_weight(k));
+        let outputs = change.outputs(|k| solved.output_weight(k));
+        let mut sizes = [0.0; 4];
+        sizes[..L].copy_from_slice(&outputs);
+        let [x, y, turn_x, turn_y] = sizes;
         let force = self.extent.images() * film.units.pressure * film.units.area;
         let moment = force * film.units.radius;
         // The frame of the grid may be turned against that of the shell.
@@ -404,7 +410,16 @@ impl FilmSolver {
 
     /// Tangents at the set of the last solution.
     fn tangent(&mut self, step: Step) -> Tangent {
-        let mut adjoints = std::mem::take(&mut self.film.adjoints);
+        match self.extent {
+            Extent::Whole => self.tangent_of::<4>(step),
+            Extent::Half => self.tangent_of::<2>(step),
+        }
+    }
+
+    /// The same of as many outputs as the extent has.
+    fn tangent_of<const L: usize>(&mut self, step: Step) -> Tangent {
+        let mut store = std::mem::take(&mut self.film.adjoints);
+        let (adjoints, _) = store.as_chunks_mut::<L>();
         let solved = self.solved();
         let closure = self.closure.as_ref();
         let (lines, fed_by) = (&self.film.lines, &self.film.fed_by);
@@ -413,17 +428,17 @@ impl FilmSolver {
                 Cell::Fed => lines.answers(fed_by, k),
                 _ => closure.loaded(solved.set, &self.film.solution, k),
             },
-            &mut adjoints,
+            adjoints,
         );
         if lines.has_unknowns() {
-            self.film.lines.close_adjoints(&mut adjoints);
+            self.film.lines.close_adjoints(adjoints);
         }
-        self.film.factor.solve_transposed(&mut adjoints);
+        self.film.factor.solve_transposed(adjoints);
         // Known cells have no balance that could answer; those of a feed behind a line share one.
         for (k, adjoint) in adjoints.iter_mut().enumerate() {
             match self.film.set.cells[k] {
                 Cell::Fed => *adjoint = self.film.lines.multiplier(&self.film.fed_by, k),
-                Cell::Ruptured if !closure.conserves_mass() => *adjoint = [0.0; 4],
+                Cell::Ruptured if !closure.conserves_mass() => *adjoint = [0.0; L],
                 _ => {}
             }
         }
@@ -432,8 +447,8 @@ impl FilmSolver {
             pressure: closure.equation_pressure(&self.film.solution, &self.film.pressure),
             ..self.solved()
         };
-        let tangent = solved.tangent(&adjoints, storage);
-        self.film.adjoints = adjoints;
+        let tangent = solved.tangent(adjoints, storage);
+        self.film.adjoints = store;
         tangent
     }
 }

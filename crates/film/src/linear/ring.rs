@@ -13,7 +13,7 @@
 //! follows from them by scaling rows and columns alone, because its couplings are diagonal.
 
 use super::kernels::{
-    Lanes, add_diagonal, add_lanes, add_product, apply_inverse, multiply_left, multiply_right,
+    Lanes, add_diagonal, add_product, apply_inverse, apply_transposed, multiply_left, multiply_right,
     subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled,
     subtract_scaled_line, sweep,
     two_stations,
@@ -120,8 +120,8 @@ pub struct RingFactor {
     product: Vec<f64>,
     line: Vec<f64>,
     border_line: Vec<f64>,
-    lanes: Vec<Lanes>,
-    border_lanes: Vec<Lanes>,
+    /// Lanes of one station and of the border.
+    lanes: Vec<f64>,
 }
 
 impl RingFactor {
@@ -149,8 +149,7 @@ impl RingFactor {
             product: vec![0.0; m * m],
             line: vec![0.0; m],
             border_line: vec![0.0; m],
-            lanes: vec![[0.0; 4]; m],
-            border_lanes: vec![[0.0; 4]; m],
+            lanes: vec![0.0; 2 * 4 * m],
         }
     }
 
@@ -240,38 +239,49 @@ impl RingFactor {
         }
     }
 
-    /// Solves the transposed system in place for four right sides at once, one per lane: the
-    /// adjoints of force and moment. The factors are read once for all four.
-    pub fn solve_transposed(&mut self, x: &mut [Lanes]) {
+    /// Solves the transposed system in place for several right sides at once, at most four, one per
+    /// lane: the adjoints of force and moment. The factors are read once for all of them.
+    pub fn solve_transposed<const L: usize>(&mut self, x: &mut [Lanes<L>]) {
+        let mut scratch = std::mem::take(&mut self.lanes);
+        let m = self.n_axial;
+        let (lanes, _) = scratch.as_chunks_mut();
+        let (here, border) = lanes.split_at_mut(m);
+        self.solve_lanes(x, here, &mut border[..m]);
+        self.lanes = scratch;
+    }
+
+    fn solve_lanes<const L: usize>(
+        &self,
+        x: &mut [Lanes<L>],
+        here: &mut [Lanes<L>],
+        at_border: &mut [Lanes<L>],
+    ) {
         let m = self.n_axial;
         let size = m * m;
         if let Some(border) = self.border {
-            self.border_lanes
-                .copy_from_slice(&x[border * m..(border + 1) * m]);
+            at_border.copy_from_slice(&x[border * m..(border + 1) * m]);
         }
-        for position in 0..self.order.len() {
-            let station = self.order[position];
-            self.apply_transposed(station, x);
+        for (position, &station) in self.order.iter().enumerate() {
+            let rows = station * m..(station + 1) * m;
+            self.apply_transposed(station, &x[rows.clone()], here);
             if self.has_to_border[station] {
                 let block = &self.to_border[station * size..(station + 1) * size];
-                subtract_product_transposed(block, &self.lanes, &mut self.border_lanes);
+                subtract_product_transposed(block, here, at_border);
             }
             if let Some(&next) = self.order.get(position + 1) {
-                let coupling = &self.ahead[station * m..(station + 1) * m];
-                subtract_scaled(&mut x[next * m..(next + 1) * m], coupling, &self.lanes);
+                subtract_scaled(&mut x[next * m..(next + 1) * m], &self.ahead[rows], here);
             }
         }
         if let Some(border) = self.border {
             let solution = &mut x[border * m..(border + 1) * m];
-            solution.fill([0.0; 4]);
-            subtract_product_transposed(&self.border_inverse, &self.border_lanes, solution);
+            solution.fill([0.0; L]);
+            subtract_product_transposed(&self.border_inverse, at_border, solution);
             for value in solution.iter_mut() {
                 *value = value.map(|v| -v);
             }
-            self.border_lanes.copy_from_slice(solution);
+            at_border.copy_from_slice(solution);
         }
-        for position in (0..self.order.len()).rev() {
-            let station = self.order[position];
+        for (position, &station) in self.order.iter().enumerate().rev() {
             if let Some(&next) = self.order.get(position + 1) {
                 let coupling = &self.behind[next * m..(next + 1) * m];
                 let (own, next) = two_stations(x, station, next, m);
@@ -280,31 +290,25 @@ impl RingFactor {
             let rows = station * m..(station + 1) * m;
             if self.has_from_border[station] {
                 let block = &self.from_border[station * size..(station + 1) * size];
-                subtract_product_transposed(block, &self.border_lanes, &mut x[rows.clone()]);
+                subtract_product_transposed(block, at_border, &mut x[rows.clone()]);
             }
-            self.apply_transposed(station, x);
-            x[rows].copy_from_slice(&self.lanes);
+            self.apply_transposed(station, &x[rows.clone()], here);
+            x[rows].copy_from_slice(here);
         }
     }
 
-    /// `lanes = D^-T x` of one station.
-    fn apply_transposed(&mut self, station: usize, x: &[Lanes]) {
+    /// `y = D^-T x` of one station.
+    fn apply_transposed<const L: usize>(
+        &self,
+        station: usize,
+        x: &[Lanes<L>],
+        y: &mut [Lanes<L>],
+    ) {
         let m = self.n_axial;
         let columns = &self.rows[self.start[station]..self.start[station + 1]];
         let inverse = &self.inverse[station * m * m..station * m * m + m * columns.len()];
         let diagonal = &self.inverse_diagonal[station * m..(station + 1) * m];
-        let x = &x[station * m..(station + 1) * m];
-        for ((value, d), x) in self.lanes.iter_mut().zip(diagonal).zip(x) {
-            *value = x.map(|x| d * x);
-        }
-        if columns.is_empty() {
-            return;
-        }
-        for (line, x) in inverse.chunks_exact(columns.len()).zip(x) {
-            for (entry, &j) in line.iter().zip(columns) {
-                add_lanes(&mut self.lanes[j], *entry, x);
-            }
-        }
+        apply_transposed(inverse, diagonal, columns, x, y);
     }
 
     fn collect_loaded_rows(&mut self, matrix: &RingMatrix) {
