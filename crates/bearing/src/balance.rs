@@ -185,7 +185,7 @@ impl NewtonLimits {
     /// settled. With that of the last step it is the tolerance.
     fn unsettled(&self) -> f64 {
         if self.takes_last_step {
-            0.5 * self.step
+            self.step
         } else {
             0.0
         }

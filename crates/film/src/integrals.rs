@@ -120,21 +120,23 @@ impl SolvedFilm<'_> {
 
     /// `R int eta U_s/h dA` over the lands, N m.
     fn shear_torque(&self, state: &JournalState) -> f64 {
-        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let m = self.grid.n_axial();
         let mut sum = 0.0;
-        for i in 0..n {
-            for j in 0..m {
-                let k = i * m + j;
-                // A groove is deep: its shear is negligible beside that of the lands.
-                if self.set.cells[k] == Cell::Fed {
-                    continue;
-                }
-                let share = match self.bearing.film_shear {
-                    FilmShear::FullWidth => 1.0,
-                    FilmShear::FilmFraction => self.wetted_share(k),
+        for (i, width) in self.grid.around_widths.iter().enumerate() {
+            let cells = i * m..(i + 1) * m;
+            let states = self.set.cells[cells.clone()].iter();
+            let gaps = states.zip(&self.gap.mean[cells]).zip(&self.grid.axial_widths);
+            let mut station = 0.0;
+            for (j, ((state, gap), along)) in gaps.enumerate() {
+                let share = match (state, self.bearing.film_shear) {
+                    // A groove is deep: its shear is negligible beside that of the lands.
+                    (Cell::Fed, _) => 0.0,
+                    (_, FilmShear::FullWidth) => 1.0,
+                    (_, FilmShear::FilmFraction) => self.wetted_share(i * m + j),
                 };
-                sum += share * self.grid.area(i, j) / self.gap.mean[k];
+                station += share * along / gap;
             }
+            sum += station * width;
         }
         let sliding = state.journal_speed - state.shell_speed;
         let units = &self.units;
@@ -168,13 +170,9 @@ impl SolvedFilm<'_> {
             n + 1
         };
         for i in 0..last {
+            let stations = self.operator.stations_beside(i);
             for j in 0..m {
-                let before = if i == 0 {
-                    self.operator.west(0, j)
-                } else {
-                    Some((i - 1) * m + j)
-                };
-                let behind = if i == n { None } else { Some(i * m + j) };
+                let [before, behind] = stations.map(|station| station.map(|i| i * m + j));
                 let (p_before, _) =
                     self.operator
                         .beside(before, 0, self.pressure, self.film_fraction);
