@@ -431,15 +431,11 @@ impl SolvedFilm<'_> {
         let last = if is_ring { n } else { n + 1 };
         let mut steps = self.gap.steps.as_slice();
         for i in 0..last {
-            let before = match i {
-                0 => is_ring.then_some(n - 1),
-                _ => Some(i - 1),
-            };
-            let behind = (i < n).then_some(i);
+            let stations = self.operator.stations_beside(i);
             let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let face = i * m + j;
-                let [before, behind] = [before, behind].map(|i| i.map(|i| i * m + j));
+                let [before, behind] = stations.map(|station| station.map(|i| i * m + j));
                 let (p_before, theta_before) =
                     self.operator
                         .beside(before, 0, self.pressure, self.film_fraction);

@@ -3,6 +3,14 @@
 /// Right sides side by side: four outputs of a film, or two where no moment acts.
 pub type Lanes<const L: usize = 4> = [f64; L];
 
+/// The larger of two numbers; `b` where `a` is not a number. One instruction in loops that [`f64::max`],
+/// which asks after both, would make wait.
+#[inline(always)]
+#[must_use]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
 pub(super) fn add_diagonal(block: &mut [f64], diagonal: &[f64], in_use: &mut bool) {
     let m = diagonal.len();
     if !*in_use {

@@ -13,7 +13,8 @@
 //! follows from them by scaling rows and columns alone, because its couplings are diagonal.
 
 use super::kernels::{
-    Lanes, add_diagonal, add_product, apply_inverse, apply_transposed, multiply_left, multiply_right,
+    Lanes, add_diagonal, add_product, apply_inverse, apply_transposed,
+    larger, multiply_left, multiply_right,
     subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled,
     subtract_scaled_line, sweep,
     two_stations,
@@ -70,21 +71,24 @@ impl RingMatrix {
         let (n, m) = (self.n_around, self.n_axial);
         let mut largest = 0.0_f64;
         for i in 0..n {
+            let here = i * m..(i + 1) * m;
             let before = if i == 0 { n - 1 } else { i - 1 } * m;
             let behind = if i + 1 == n { 0 } else { i + 1 } * m;
+            let (before, behind) = (&x[before..before + m], &x[behind..behind + m]);
+            let (centre, own) = (&self.centre[here.clone()], &x[here.clone()]);
+            let (west, east) = (&self.west[here.clone()], &self.east[here.clone()]);
+            let (south, north) = (&self.south[here.clone()], &self.north[here.clone()]);
+            let (rhs, residual) = (&rhs[here.clone()], &mut residual[here]);
             for j in 0..m {
-                let k = i * m + j;
-                let mut product = self.centre[k] * x[k]
-                    + self.west[k] * x[before + j]
-                    + self.east[k] * x[behind + j];
-                if j > 0 {
-                    product += self.south[k] * x[k - 1];
-                }
-                if j + 1 < m {
-                    product += self.north[k] * x[k + 1];
-                }
-                residual[k] = rhs[k] - product;
-                largest = largest.max(residual[k].abs());
+                let product = centre[j] * own[j] + west[j] * before[j] + east[j] * behind[j];
+                residual[j] = rhs[j] - product;
+            }
+            for j in 1..m {
+                residual[j] -= south[j] * own[j - 1];
+                residual[j - 1] -= north[j - 1] * own[j];
+            }
+            for value in residual {
+                largest = larger(value.abs(), largest);
             }
         }
         largest
