@@ -24,7 +24,6 @@ use crate::journal_state::JournalState;
 use crate::mirror::{Extent, half_of};
 use crate::narrowest::GapSearch;
 use crate::reynolds::{Cell, Storage};
-use crate::settling::SetChange;
 use crate::supply::mark_fed_cells;
 use crate::surfaces::Surfaces;
 use sommerfeld_oil::Lubricant;
@@ -283,11 +282,17 @@ impl FilmSolver {
         let turned = self.frame.turn(state);
         let local = self.frame.to_grid(state, turned);
         self.film.iterations += 1;
-        self.film.unsettled = None;
         if !self.film.solve(self.closure.as_ref()) {
             return Linearised::without_film(Outcome::NoSolution);
         }
         self.film.account_feeds(&self.bearing, self.extent);
+        let early = self.film.can_settle(self.closure.as_ref());
+        self.film.settling.forget();
+        let settled_early = early && self.film.settle(self.closure.as_ref());
+        if early {
+            self.film.account_feeds(&self.bearing, self.extent);
+            self.film.swap_solved_cells();
+        }
         let reaction = self.extent.reaction(self.solved().reaction(&local));
         let tangent = match wanted {
             Wanted::Tangent => self.extent.tangent(self.tangent(step)),
@@ -297,15 +302,12 @@ impl FilmSolver {
         self.film.reaction = reaction;
         self.film
             .write_fields(&self.bearing, &self.grid, self.extent, turned);
-        self.film.keep_solved_cells();
-        let moved = self.film.advance_set(self.closure.as_ref());
-        let settled = moved == 0;
-        if !settled && wanted == Wanted::Tangent {
-            self.film.unsettled = match self.extent {
-                Extent::Whole => self.lacking::<4>(moved),
-                Extent::Half => self.lacking::<2>(moved),
-            };
-        }
+        let settled = if early {
+            self.film.swap_solved_cells();
+            settled_early
+        } else {
+            self.film.advance_set(self.closure.as_ref()) == 0
+        };
         Linearised {
             reaction,
             tangent,
@@ -316,39 +318,6 @@ impl FilmSolver {
                 Outcome::Converged
             },
         }
-    }
-
-    /// What the reaction lacks to that of the set that comes next, N and N m; `None` where more than
-    /// cells changed, or where a change is not one of a pressure alone.
-    fn lacking<const L: usize>(&self, moved: usize) -> Option<[f64; 4]> {
-        let film = &self.film;
-        if self.closure.conserves_mass() || self.closure.cuts_pressures() {
-            return None;
-        }
-        let change = SetChange {
-            operator: &film.operator,
-            solved: &film.solved_cells,
-            next: &film.set,
-            pressure: &film.pressure,
-            excess: &film.excess,
-            adjoints: film.adjoints.as_chunks::<L>().0,
-        };
-        if change.count() != moved {
-            return None;
-        }
-        let solved = self.solved();
-        let outputs = change.outputs(|k| solved.output_weight(k));
-        let mut sizes = [0.0; 4];
-        sizes[..L].copy_from_slice(&outputs);
-        let [x, y, turn_x, turn_y] = sizes;
-        let force = self.extent.images() * film.units.pressure * film.units.area;
-        let moment = force * film.units.radius;
-        // The frame of the grid may be turned against that of the shell.
-        let (size, turn) = match self.frame {
-            Frame::Shell => ([x, y], [turn_x, turn_y]),
-            Frame::LineOfCentres => ([x.hypot(y); 2], [turn_x.hypot(turn_y); 2]),
-        };
-        Some([size[0] * force, size[1] * force, turn[0] * moment, turn[1] * moment])
     }
 
     /// Stage 1 to 3. `state` is in the frame of the grid.
@@ -434,6 +403,9 @@ impl FilmSolver {
             self.film.lines.close_adjoints(adjoints);
         }
         self.film.factor.solve_transposed(adjoints);
+        self.film
+            .settling
+            .correct_adjoints(&self.film.operator, adjoints, |k| self.solved().output_weight(k));
         // Known cells have no balance that could answer; those of a feed behind a line share one.
         for (k, adjoint) in adjoints.iter_mut().enumerate() {
             match self.film.set.cells[k] {
@@ -503,10 +475,6 @@ impl FilmForce for FilmSolver {
             updates += 1;
         }
         Ok((seen, updates))
-    }
-
-    fn unsettled(&self) -> Option<[f64; 4]> {
-        self.film.unsettled
     }
 
     fn summary(&self) -> FilmSummary {

@@ -29,6 +29,11 @@ pub trait CavitationModel: Send + Sync {
         false
     }
 
+    /// Ruptured cells have a known pressure and are no unknowns.
+    fn knows_pressures(&self) -> bool {
+        false
+    }
+
     /// Writes the linear equations of the set into `matrix` and `rhs`.
     fn assemble(
         &self,
