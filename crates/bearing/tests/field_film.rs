@@ -227,6 +227,7 @@ fn newton_keeps_the_journal_within_its_tolerance() {
         let apart = [0, 1].map(|axis| a.state.position[axis] - b.state.position[axis]);
         let gap = b.summary.minimum_film_thickness.value;
         worst = worst.max(apart[0].hypot(apart[1]) / gap);
+        println!("D {:.0} {:.2e} {:.2}", a.crank_angle.to_degrees(), apart[0].hypot(apart[1]) / gap, gap * 1e6);
     }
     println!("W {worst:e} {} {} {}", usual.film_solves, tight.film_solves, usual.steps);
     assert!(worst < tolerance, "{worst:e}");
