@@ -20,8 +20,8 @@ use sommerfeld_bearing::{CycleTilt, LoadCycle, OrbitSettings, journal_orbit};
 use sommerfeld_film::{Bearing, Cavitation, FilmForce, FilmSolver, JournalState, Step};
 use sommerfeld_oil::Lubricant;
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
 use std::hint::black_box;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 const GRID: [usize; 2] = [64, 16];
@@ -41,13 +41,28 @@ fn main() {
         ),
         ..diesel_cycle()
     };
-    println!("orbit, 64 x 16 cells, 3 cycles   steps  updates  per step  ms/update      s  h_min um  p_max MPa");
+    println!(
+        "orbit, 64 x 16 cells, 3 cycles   steps  updates  per step  ms/update      s  h_min um  p_max MPa"
+    );
     for (name, cavitation, degrees, cycle) in [
         ("reynolds, aligned", Cavitation::Reynolds, 1.0, &cycle),
-        ("reynolds, tilt prescribed", Cavitation::Reynolds, 1.0, &tilted),
-        ("mass-conserving, aligned", Cavitation::MassConserving, 1.0, &cycle),
+        (
+            "reynolds, tilt prescribed",
+            Cavitation::Reynolds,
+            1.0,
+            &tilted,
+        ),
+        (
+            "mass-conserving, aligned",
+            Cavitation::MassConserving,
+            1.0,
+            &cycle,
+        ),
     ] {
-        if std::env::args().skip(1).any(|word| !word.starts_with('-') && !name.contains(&word)) {
+        if std::env::args()
+            .skip(1)
+            .any(|word| !word.starts_with('-') && !name.contains(&word))
+        {
             continue;
         }
         let bearing = diesel_big_end(cavitation);
@@ -82,7 +97,13 @@ fn updates(name: &str, film: &mut dyn FilmForce) {
     println!("{name:31} one update {update:.4} ms, without tangents {look:.4} ms");
 }
 
-fn measure(name: &str, film: &mut dyn FilmForce, bearing: &Bearing, cycle: &LoadCycle, degrees: f64) {
+fn measure(
+    name: &str,
+    film: &mut dyn FilmForce,
+    bearing: &Bearing,
+    cycle: &LoadCycle,
+    degrees: f64,
+) {
     let settings = OrbitSettings {
         crank_step: degrees.to_radians(),
         cycle_limit: 3,

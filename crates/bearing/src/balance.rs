@@ -370,7 +370,8 @@ impl Balance {
                 settled: linearised.settled,
             });
             if done {
-                let shows = linearised.settled && taken * relative_step <= FIELD_ACCURACY * limits.step;
+                let shows =
+                    linearised.settled && taken * relative_step <= FIELD_ACCURACY * limits.step;
                 let step = add([0.0; 4], taken, step);
                 return Ok(self.finished(newton, linearised, size, step, shows));
             }

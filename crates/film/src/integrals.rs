@@ -125,7 +125,9 @@ impl SolvedFilm<'_> {
         for (i, width) in self.grid.around_widths.iter().enumerate() {
             let cells = i * m..(i + 1) * m;
             let states = self.set.cells[cells.clone()].iter();
-            let gaps = states.zip(&self.gap.mean[cells]).zip(&self.grid.axial_widths);
+            let gaps = states
+                .zip(&self.gap.mean[cells])
+                .zip(&self.grid.axial_widths);
             let mut station = 0.0;
             for (j, ((state, gap), along)) in gaps.enumerate() {
                 let share = match (state, self.bearing.film_shear) {
@@ -527,7 +529,11 @@ impl SolvedFilm<'_> {
     }
 
     /// The limited gain follows the gap at the face that the cell drains through.
-    fn sensitivity_limited_storage<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
+    fn sensitivity_limited_storage<const L: usize>(
+        &self,
+        adjoints: &[Lanes<L>],
+        by: &mut Sensitivity<L>,
+    ) {
         let m = self.grid.n_axial();
         let speed = self.operator.mean_speed;
         for i in 0..self.grid.n_around() {
@@ -539,7 +545,10 @@ impl SolvedFilm<'_> {
                     sums.add(adjoints[k], [0.0; L], by_height, self.grid.axial[j]);
                 }
             }
-            by.add(&sums, self.angles.faces[if speed > 0.0 { i + 1 } else { i }]);
+            by.add(
+                &sums,
+                self.angles.faces[if speed > 0.0 { i + 1 } else { i }],
+            );
         }
     }
 

@@ -405,7 +405,9 @@ impl FilmSolver {
         self.film.factor.solve_transposed(adjoints);
         self.film
             .settling
-            .correct_adjoints(&self.film.operator, adjoints, |k| self.solved().output_weight(k));
+            .correct_adjoints(&self.film.operator, adjoints, |k| {
+                self.solved().output_weight(k)
+            });
         // Known cells have no balance that could answer; those of a feed behind a line share one.
         for (k, adjoint) in adjoints.iter_mut().enumerate() {
             match self.film.set.cells[k] {

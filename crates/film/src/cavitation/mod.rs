@@ -175,7 +175,11 @@ fn assemble_balance(
             operator.stations_beside(i + 1)[1],
         ];
         let is_full = |station: Option<usize>| {
-            station.is_some_and(|i| set.cells[i * m..(i + 1) * m].iter().all(|c| *c == Cell::Full))
+            station.is_some_and(|i| {
+                set.cells[i * m..(i + 1) * m]
+                    .iter()
+                    .all(|c| *c == Cell::Full)
+            })
         };
         if is_full(Some(i)) && is_full(before) && is_full(behind) {
             assemble_full_station(operator, set, i, matrix, rhs);
@@ -257,10 +261,19 @@ fn assemble_full_station(
     let around = &operator.conductance_around;
     let (to_west, to_east) = (&around[here.clone()], &around[next.clone()]);
     let (inward, outward) = (&operator.transport[here.clone()], &operator.transport[next]);
-    let (storage, stored) = (&operator.storage[here.clone()], &operator.stored[here.clone()]);
+    let (storage, stored) = (
+        &operator.storage[here.clone()],
+        &operator.stored[here.clone()],
+    );
     let along = &operator.conductance_axial[i * (m + 1)..(i + 1) * (m + 1)];
-    let (centre, west) = (&mut matrix.centre[here.clone()], &mut matrix.west[here.clone()]);
-    let (east, south) = (&mut matrix.east[here.clone()], &mut matrix.south[here.clone()]);
+    let (centre, west) = (
+        &mut matrix.centre[here.clone()],
+        &mut matrix.west[here.clone()],
+    );
+    let (east, south) = (
+        &mut matrix.east[here.clone()],
+        &mut matrix.south[here.clone()],
+    );
     let (north, rhs) = (&mut matrix.north[here.clone()], &mut rhs[here.clone()]);
     for j in 0..m {
         west[j] = -to_west[j];

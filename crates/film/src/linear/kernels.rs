@@ -25,11 +25,7 @@ pub(super) fn add_diagonal(block: &mut [f64], diagonal: &[f64], in_use: &mut boo
 /// Gauss-Jordan sweeps on `rows` x `width`: afterwards the pivot rows hold the inverse of the pivot
 /// block P, the other rows `-C P^-1` with C their own entries. `pivot_row(p)` is the row of pivot
 /// column `p`. Returns `false` at a vanishing pivot.
-pub(super) fn sweep(
-    block: &mut [f64],
-    width: usize,
-    pivot_row: impl Fn(usize) -> usize,
-) -> bool {
+pub(super) fn sweep(block: &mut [f64], width: usize, pivot_row: impl Fn(usize) -> usize) -> bool {
     // Of a known width the lines stay in registers.
     match width {
         4 => sweep_lines(block, 4, pivot_row),

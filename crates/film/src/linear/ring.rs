@@ -13,11 +13,9 @@
 //! follows from them by scaling rows and columns alone, because its couplings are diagonal.
 
 use super::kernels::{
-    Lanes, add_diagonal, add_product, apply_inverse, apply_transposed,
-    larger, multiply_left, multiply_right,
-    subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled,
-    subtract_scaled_line, sweep,
-    two_stations,
+    Lanes, add_diagonal, add_product, apply_inverse, apply_transposed, larger, multiply_left,
+    multiply_right, subtract_matrix_product, subtract_product, subtract_product_transposed,
+    subtract_scaled, subtract_scaled_line, sweep, two_stations,
 };
 
 /// Five-point matrix in row form: entry `west[k]` of row `k` multiplies the unknown of the cell
@@ -302,12 +300,7 @@ impl RingFactor {
     }
 
     /// `y = D^-T x` of one station.
-    fn apply_transposed<const L: usize>(
-        &self,
-        station: usize,
-        x: &[Lanes<L>],
-        y: &mut [Lanes<L>],
-    ) {
+    fn apply_transposed<const L: usize>(&self, station: usize, x: &[Lanes<L>], y: &mut [Lanes<L>]) {
         let m = self.n_axial;
         let columns = &self.rows[self.start[station]..self.start[station + 1]];
         let inverse = &self.inverse[station * m * m..station * m * m + m * columns.len()];
