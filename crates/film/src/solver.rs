@@ -6,8 +6,9 @@
 //! 3. operator: what conducts, what is dragged along, what is stored
 //! 4. cavitation: the equations of the present set, solved directly, bordered by the feeds whose line
 //!    resists
-//! 5. integrals: force, moment, torques; tangents by adjoints on the same factors
-//! 6. the next set; unchanged means settled
+//! 5. the next set; where it differs in a few cells of known pressure the film follows it on the same
+//!    factors, else it waits for the next update; unchanged means settled
+//! 6. integrals: force, moment, torques; tangents by adjoints on the same factors
 
 use crate::bearing::{Bearing, Cavitation, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet, model_of};
@@ -286,6 +287,7 @@ impl FilmSolver {
             return Linearised::without_film(Outcome::NoSolution);
         }
         self.film.account_feeds(&self.bearing, self.extent);
+        // Else the set moves on after the integrals, which are those of the set that was solved.
         let early = self.film.can_settle(self.closure.as_ref());
         self.film.settling.forget();
         let settled_early = early && self.film.settle(self.closure.as_ref());
