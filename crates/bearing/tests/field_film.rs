@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{CONDITIONS, diesel_cycle, plain_bearing, table};
+use common::{CONDITIONS, diesel_big_end, diesel_cycle, plain_bearing, table};
 use sommerfeld_bearing::{
     CycleTilt, EquilibriumRequest, EquilibriumSettings, LoadCycle, LoadPoint, OrbitSettings,
     find_equilibrium, journal_orbit,
@@ -187,4 +187,51 @@ fn an_unloaded_journal_rests_in_the_centre_of_a_film_on_a_grid() {
             );
         }
     }
+}
+
+/// Newton's last step counts by its square: against a rule a hundred times tighter the journal stays where
+/// it was to the tolerance, through thin films and past the hole. Steps are equal, so that nothing else
+/// differs.
+#[test]
+fn newton_keeps_the_journal_within_its_tolerance() {
+    let bearing = diesel_big_end(Cavitation::Reynolds);
+    let oil = Lubricant::constant(8e-3, 850.0);
+    let cycle = diesel_cycle();
+    let run = |newton_tolerance: f64| {
+        let mut film = FilmSolver::aligned(&bearing, &oil, [64, 16]).unwrap();
+        let settings = OrbitSettings {
+            newton_tolerance,
+            error_tolerance: 1.0,
+            cycle_limit: 1,
+            ..OrbitSettings::default()
+        };
+        let mut observer = |_: &_, _: &dyn FilmForce, _| ControlFlow::Continue(());
+        journal_orbit(
+            &mut film,
+            &bearing,
+            &cycle,
+            &CONDITIONS,
+            &settings,
+            &mut observer,
+        )
+        .unwrap()
+    };
+    let tolerance = OrbitSettings::default().newton_tolerance;
+    let (usual, tight) = (run(tolerance), run(0.01 * tolerance));
+    assert_eq!(usual.steps, tight.steps);
+    assert!(usual.film_solves < tight.film_solves);
+    let mut worst = 0.0_f64;
+    for (a, b) in usual.points.iter().zip(&tight.points).skip(1) {
+        assert_eq!(a.outcome, Outcome::Converged);
+        assert_eq!(
+            a.summary.complementarity_violation, 0.0,
+            "{}",
+            a.crank_angle
+        );
+        let apart = [0, 1].map(|axis| a.state.position[axis] - b.state.position[axis]);
+        let gap = b.summary.minimum_film_thickness.value;
+        worst = worst.max(apart[0].hypot(apart[1]) / gap);
+    }
+
+    assert!(worst < tolerance, "{worst:e}");
 }

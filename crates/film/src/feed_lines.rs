@@ -420,7 +420,7 @@ impl FeedLines {
     /// Multipliers of the pockets' balances for the four outputs: `weights` are the derivatives of
     /// the outputs by the unknown of each cell, those of fed cells included. Takes what the
     /// multipliers contribute to the right side of the cells' adjoints from `weights`.
-    pub(crate) fn close_adjoints(&mut self, weights: &mut [Lanes]) {
+    pub(crate) fn close_adjoints<const L: usize>(&mut self, weights: &mut [Lanes<L>]) {
         let count = self.unknown.len();
         self.lanes.clear();
         for response in &self.responses[..count] {
@@ -452,10 +452,14 @@ impl FeedLines {
     }
 
     /// The multiplier of the balance that a fed cell is part of; zero where its pressure is held.
-    pub(crate) fn multiplier(&self, fed_by: &[Option<usize>], cell: usize) -> Lanes {
+    pub(crate) fn multiplier<const L: usize>(
+        &self,
+        fed_by: &[Option<usize>],
+        cell: usize,
+    ) -> Lanes<L> {
         self.slot_of(fed_by, cell)
-            .and_then(|slot| self.lanes.get(slot).copied())
-            .unwrap_or([0.0; 4])
+            .and_then(|slot| self.lanes.get(slot))
+            .map_or([0.0; L], |lanes| std::array::from_fn(|lane| lanes[lane]))
     }
 
     /// The pressure of this fed cell is unknown and not cut off at cavitation pressure.

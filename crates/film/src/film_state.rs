@@ -11,12 +11,13 @@ use crate::grid::Grid;
 use crate::heat::FilmHeat;
 use crate::integrals::Units;
 use crate::journal_state::JournalState;
-use crate::linear::{Lanes, RingFactor, RingMatrix};
+use crate::linear::{RingFactor, RingMatrix};
 use crate::mirror::Extent;
 use crate::nonlinear::{EndOpening, Expansion, FilmEquations};
 use crate::passage::Passage;
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Around, Axial, Cell, Operator};
+use crate::settling::Settling;
 use sommerfeld_oil::{CompressionLaw, Lubricant};
 
 /// Flow below this share of the largest is round-off of the direct solution.
@@ -59,12 +60,11 @@ pub(crate) struct FilmState {
     pub(crate) excess: Vec<f64>,
     /// Largest flow of the last balance, 1/s.
     pub(crate) flow_scale: f64,
-    /// Adjoints of force and moment, per cell.
-    pub(crate) adjoints: Vec<Lanes>,
-    /// States of the cells that were solved, before the set moved on.
+    /// Adjoints of force and moment, per cell as many as the extent has outputs.
+    pub(crate) adjoints: Vec<f64>,
+    /// States of the cells that the fields belong to, while the set has moved on.
     pub(crate) solved_cells: Vec<Cell>,
-    /// What the last reaction lacks to that of the settled film, N and N m, where it is known.
-    pub(crate) unsettled: Option<[f64; 4]>,
+    pub(crate) settling: Settling,
     /// Content theta H at the last accepted step; empty before the first.
     pub(crate) content: Vec<f64>,
     /// Content that an implicit step starts from.
@@ -144,9 +144,9 @@ impl FilmState {
             film_fraction: zero.clone(),
             excess: zero.clone(),
             flow_scale: 0.0,
-            adjoints: vec![[0.0; 4]; n * m],
+            adjoints: vec![0.0; extent.outputs() * n * m],
             solved_cells: vec![Cell::Full; n * m],
-            unsettled: None,
+            settling: Settling::new(n * m),
             content: Vec::with_capacity(n * m),
             old_content: zero.clone(),
             after: 0.0,
@@ -503,9 +503,47 @@ impl FilmState {
             .account(&self.film_flows, units, cavitation, &mut self.feed_flows);
     }
 
-    /// Keeps the states of the cells before the set moves on.
-    pub(crate) fn keep_solved_cells(&mut self) {
-        self.solved_cells.copy_from_slice(&self.set.cells);
+    /// The film of a set that differs in a few cells can be found without another elimination: all
+    /// changes are those of pressures.
+    pub(crate) fn can_settle(&self, closure: &dyn CavitationModel) -> bool {
+        let ends_stay = match self.operator.axial {
+            Axial::Air(air) => air <= 0.0 && self.set.end_open.iter().all(|open| *open),
+            Axial::Bath(_) | Axial::Closed => true,
+        };
+        let is_linear = self.expansion.is_linear();
+        closure.knows_pressures() && ends_stay && is_linear && !self.lines.has_unknowns()
+    }
+
+    /// Moves the set on and the film with it, as far as a few cells carry. `true` if it settled; else the
+    /// set is the one to be solved next, and the states of the cells that the film belongs to are kept.
+    pub(crate) fn settle(&mut self, closure: &dyn CavitationModel) -> bool {
+        const ROUNDS: usize = 3;
+        self.settling
+            .begin(&self.set.cells, &self.solution, &self.excess);
+        for round in 0..=ROUNDS {
+            self.solved_cells.copy_from_slice(&self.set.cells);
+            if self.advance_set(closure) == 0 {
+                return true;
+            }
+            let is_found = round < ROUNDS
+                && self.settling.solve(
+                    &self.operator,
+                    &mut self.factor,
+                    &self.set.cells,
+                    &mut self.solution,
+                );
+            if !is_found {
+                return false;
+            }
+            self.take_fields(closure);
+            self.sum_film_flows();
+        }
+        false
+    }
+
+    /// Exchanges the set that is next for the states of the cells that the film belongs to.
+    pub(crate) fn swap_solved_cells(&mut self) {
+        std::mem::swap(&mut self.set.cells, &mut self.solved_cells);
     }
 
     pub(crate) fn advance_set(&mut self, closure: &dyn CavitationModel) -> usize {

@@ -48,14 +48,6 @@ pub trait FilmForce {
         Ok(seen)
     }
 
-    /// Where the last update did not settle: an estimate of the size of what its reaction, N and N m,
-    /// lacks to that of the settled film. A caller to whom that is little may go on without another
-    /// update; fields and summary are those of the settled film only after [`FilmForce::look`].
-    /// `None` where the model cannot tell.
-    fn unsettled(&self) -> Option<[f64; 4]> {
-        None
-    }
-
     /// [`FilmForce::react`] for a caller that asks for no tangent, which may be zero: fields and summary
     /// of the settled film, with the number of updates it took.
     ///

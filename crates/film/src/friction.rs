@@ -167,7 +167,7 @@ impl SolvedFilm<'_> {
         for k in 0..self.contact.len() {
             let pressure = self.contact(k)[0];
             if pressure > 0.0 {
-                for (sum, weight) in sums.iter_mut().zip(self.output_weight(k)) {
+                for (sum, weight) in sums.iter_mut().zip(self.output_weight::<4>(k)) {
                     *sum += pressure * weight;
                 }
             }
@@ -181,7 +181,7 @@ impl SolvedFilm<'_> {
     }
 
     /// Derivative of force and moment of contact per rise of H in a cell, the outputs' unit.
-    pub(crate) fn contact_by_height(&self, cell: usize) -> Option<Lanes> {
+    pub(crate) fn contact_by_height<const L: usize>(&self, cell: usize) -> Option<Lanes<L>> {
         let [_, slope] = self.contact(cell);
         (slope != 0.0).then(|| self.output_weight(cell).map(|weight| weight * slope))
     }

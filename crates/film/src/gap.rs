@@ -163,6 +163,13 @@ impl Waviness {
         }
     }
 
+    /// Its value at an angle with this cos and sin in the mid-plane, and its change per unit of zeta.
+    #[must_use]
+    pub fn along(&self, [cos, sin]: [f64; 2]) -> (f64, f64) {
+        let value = |[x, y]: [f64; 2]| x * cos + y * sin;
+        (value(self.centre), value(self.slope))
+    }
+
     /// The amplitudes at `zeta`.
     #[must_use]
     pub fn at(&self, zeta: f64) -> [f64; 2] {
@@ -207,23 +214,31 @@ impl AngleTables {
     /// Fills `gap` between cylinders with the journal at `position` moving at `rate`.
     pub fn fill_gap(&self, grid: &Grid, position: &Waviness, rate: &Waviness, gap: &mut Gap) {
         let (n, m) = (grid.n_around(), grid.n_axial());
-        let thickness = |[x, y]: [f64; 2], [cos, sin]: [f64; 2]| 1.0 - x * cos - y * sin;
-        for i in 0..=n {
-            for j in 0..m {
-                let h = thickness(position.at(grid.axial[j]), self.faces[i]);
-                gap.around_transport[i * m + j] = h;
-                gap.around_cubed[i * m + j] = h * h * h;
+        for (i, trig) in self.faces.iter().enumerate() {
+            let faces = i * m..(i + 1) * m;
+            let (centre, slope) = position.along(*trig);
+            let transport = &mut gap.around_transport[faces.clone()];
+            let cubed = &mut gap.around_cubed[faces];
+            for ((transport, cubed), zeta) in transport.iter_mut().zip(cubed).zip(&grid.axial) {
+                let h = 1.0 - (centre + slope * zeta);
+                *transport = h;
+                *cubed = h * h * h;
             }
         }
         for i in 0..n {
-            for j in 0..m {
-                gap.mean[i * m + j] = thickness(position.at(grid.axial[j]), self.means[i]);
-                let [vx, vy] = rate.at(grid.axial[j]);
-                gap.rate[i * m + j] = -vx * self.means[i][0] - vy * self.means[i][1];
+            let cells = i * m..(i + 1) * m;
+            let (centre, slope) = position.along(self.means[i]);
+            let (rising, turning) = rate.along(self.means[i]);
+            let mean = &mut gap.mean[cells.clone()];
+            let rates = &mut gap.rate[cells];
+            for ((mean, rate), zeta) in mean.iter_mut().zip(rates).zip(&grid.axial) {
+                *mean = 1.0 - (centre + slope * zeta);
+                *rate = -(rising + turning * zeta);
             }
-            for j in 0..=m {
-                gap.axial[i * (m + 1) + j] =
-                    thickness(position.at(grid.axial_faces[j]), self.centres[i]);
+            let (centre, slope) = position.along(self.centres[i]);
+            let heights = &mut gap.axial[i * (m + 1)..(i + 1) * (m + 1)];
+            for (height, zeta) in heights.iter_mut().zip(&grid.axial_faces) {
+                *height = 1.0 - (centre + slope * zeta);
             }
         }
     }

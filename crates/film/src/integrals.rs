@@ -130,7 +130,7 @@ impl SolvedFilm<'_> {
 
     /// Derivative of the same by the reduced pressure.
     #[inline]
-    fn stiffening(&self, cell: usize) -> f64 {
+    pub(crate) fn stiffening(&self, cell: usize) -> f64 {
         self.stiffened.get(cell).map_or(1.0, |[_, slope]| *slope)
     }
 
@@ -398,12 +398,13 @@ impl SolvedFilm<'_> {
         [half((i + n - 1) % n, i), half(i, (i + 1) % n)]
     }
 
-    /// Derivatives of force and moment for this set, by the adjoints of the four outputs:
+    /// Derivatives of force and moment for this set, by the adjoints of its outputs, the
+    /// force alone or the moment too:
     /// `dF/dq = -y . dR/dq` with the balance R and `M^T y = dF/dP`. `adjoints` per cell, one lane per
     /// output, already zero where the equation is not a balance.
     #[must_use]
-    pub fn tangent(&self, adjoints: &[Lanes], storage: Storage<'_>) -> Tangent {
-        let (mut by_position, mut by_rate) = (Sensitivity::default(), Sensitivity::default());
+    pub fn tangent<const L: usize>(&self, adjoints: &[Lanes<L>], storage: Storage<'_>) -> Tangent {
+        let (mut by_position, mut by_rate) = (Sensitivity::<L>::new(), Sensitivity::<L>::new());
         self.sensitivity_around(adjoints, &mut by_position);
         self.sensitivity_axial(adjoints, &mut by_position);
         self.sensitivity_contact(&mut by_position);
@@ -427,21 +428,17 @@ impl SolvedFilm<'_> {
         }
     }
 
-    fn sensitivity_around(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+    fn sensitivity_around<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let is_ring = self.operator.west(0, 0).is_some();
         let last = if is_ring { n } else { n + 1 };
         let mut steps = self.gap.steps.as_slice();
         for i in 0..last {
-            let before = match i {
-                0 => is_ring.then_some(n - 1),
-                _ => Some(i - 1),
-            };
-            let behind = (i < n).then_some(i);
-            let mut sums = StationSums::default();
+            let stations = self.operator.stations_beside(i);
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let face = i * m + j;
-                let [before, behind] = [before, behind].map(|i| i.map(|i| i * m + j));
+                let [before, behind] = stations.map(|station| station.map(|i| i * m + j));
                 let (p_before, theta_before) =
                     self.operator.beside(before, 0, self.pressure, self.held);
                 let (p_behind, theta_behind) =
@@ -458,14 +455,14 @@ impl SolvedFilm<'_> {
                 };
                 let conducted = conducting * self.operator.conductance_around[face];
                 let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
-                let value = |cell: Option<usize>| cell.map_or([0.0; 4], |k| adjoints[k]);
+                let value = |cell: Option<usize>| cell.map_or([0.0; L], |k| adjoints[k]);
                 sums.add(value(before), value(behind), by_height, self.grid.axial[j]);
             }
             by.add(&sums, self.angles.faces[i]);
         }
     }
 
-    fn sensitivity_axial(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+    fn sensitivity_axial<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         for i in 0..n {
             let gap = &self.gap.axial[i * (m + 1)..(i + 1) * (m + 1)];
@@ -477,16 +474,16 @@ impl SolvedFilm<'_> {
                 Some(passage) => passage.axial_slopes[i * (m + 1) + j],
                 None => 3.0 / gap[j],
             };
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             let first = slope(0) * self.set_flow_at_end(i, 0);
-            sums.add([0.0; 4], adjoints[0], first, faces[0]);
+            sums.add([0.0; L], adjoints[0], first, faces[0]);
             for j in 1..m {
                 let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
                 let by_height = slope(j) * flow;
                 sums.add(adjoints[j - 1], adjoints[j], by_height, faces[j]);
             }
             let last = slope(m) * self.set_flow_at_end(i, m);
-            sums.add(adjoints[m - 1], [0.0; 4], last, faces[m]);
+            sums.add(adjoints[m - 1], [0.0; L], last, faces[m]);
             by.add(&sums, self.angles.centres[i]);
         }
     }
@@ -513,19 +510,19 @@ impl SolvedFilm<'_> {
     /// steps.
     /// Of what cells hold, by the gap (or its rate) `per_time`, and by how its growth changes with the
     /// gap `per_rate`.
-    fn sensitivity_storage(
+    fn sensitivity_storage<const L: usize>(
         &self,
-        adjoints: &[Lanes],
+        adjoints: &[Lanes<L>],
         per_time: f64,
         per_rate: f64,
-        by: &mut Sensitivity,
+        by: &mut Sensitivity<L>,
     ) {
         let m = self.grid.n_axial();
         if self.passage.is_none() && per_time == 0.0 {
             return;
         }
         for i in 0..self.grid.n_around() {
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let k = i * m + j;
                 if !self.gains_limited(k) {
@@ -534,7 +531,7 @@ impl SolvedFilm<'_> {
                         per_time * slope + per_rate * passage.rate[k] * curvature
                     });
                     let by_height = held * self.held[k] * self.grid.area(i, j);
-                    sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
+                    sums.add(adjoints[k], [0.0; L], by_height, self.grid.axial[j]);
                 }
             }
             by.add(&sums, self.angles.means[i]);
@@ -542,16 +539,16 @@ impl SolvedFilm<'_> {
     }
 
     /// Of the asperities that touch: their pressure follows the gap of their own cell.
-    fn sensitivity_contact(&self, by: &mut Sensitivity) {
+    fn sensitivity_contact<const L: usize>(&self, by: &mut Sensitivity<L>) {
         if self.contact.is_empty() {
             return;
         }
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
-                if let Some(outputs) = self.contact_by_height(i * m + j) {
-                    sums.add([0.0; 4], outputs, 1.0, self.grid.axial[j]);
+                if let Some(outputs) = self.contact_by_height::<L>(i * m + j) {
+                    sums.add([0.0; L], outputs, 1.0, self.grid.axial[j]);
                 }
             }
             by.add(&sums, self.angles.means[i]);
@@ -565,11 +562,15 @@ impl SolvedFilm<'_> {
     }
 
     /// The limited gain follows the gap at the face that the cell drains through.
-    fn sensitivity_limited_storage(&self, adjoints: &[Lanes], by: &mut Sensitivity) {
+    fn sensitivity_limited_storage<const L: usize>(
+        &self,
+        adjoints: &[Lanes<L>],
+        by: &mut Sensitivity<L>,
+    ) {
         let m = self.grid.n_axial();
         let speed = self.operator.mean_speed;
         for i in 0..self.grid.n_around() {
-            let mut sums = StationSums::default();
+            let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let k = i * m + j;
                 if self.gains_limited(k) {
@@ -579,7 +580,7 @@ impl SolvedFilm<'_> {
                     });
                     let by_height =
                         -speed.abs() * per_height * self.grid.area(i, j) * self.film_fraction[k];
-                    sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
+                    sums.add(adjoints[k], [0.0; L], by_height, self.grid.axial[j]);
                 }
             }
             by.add(
@@ -591,7 +592,11 @@ impl SolvedFilm<'_> {
 
     /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell whose
     /// P is an unknown that acts on the journal (`loaded`).
-    pub fn output_weights(&self, loaded: impl Fn(usize) -> bool, weights: &mut [Lanes]) {
+    pub fn output_weights<const L: usize>(
+        &self,
+        loaded: impl Fn(usize) -> bool,
+        weights: &mut [Lanes<L>],
+    ) {
         let m = self.grid.n_axial();
         for i in 0..self.grid.n_around() {
             for j in 0..m {
@@ -600,7 +605,7 @@ impl SolvedFilm<'_> {
                     let stiffening = self.stiffening(k);
                     self.output_weight(k).map(|weight| weight * stiffening)
                 } else {
-                    [0.0; 4]
+                    [0.0; L]
                 };
             }
         }
@@ -608,46 +613,63 @@ impl SolvedFilm<'_> {
 
     /// Derivative of force and moment with respect to P of a cell.
     #[must_use]
-    pub fn output_weight(&self, cell: usize) -> Lanes {
+    pub fn output_weight<const L: usize>(&self, cell: usize) -> Lanes<L> {
         let m = self.grid.n_axial();
         let (i, j) = (cell / m, cell % m);
         let [cos, sin] = self.angles.means[i];
         let area = self.grid.area(i, j);
         let lever = area * self.grid.axial[j];
-        [-cos * area, -sin * area, sin * lever, -cos * lever]
+        let all = [-cos * area, -sin * area, sin * lever, -cos * lever];
+        std::array::from_fn(|output| all[output])
     }
 }
 
-/// What one station gives to the four outputs per rise of H there: in the mid-plane, and times zeta.
-#[derive(Debug, Clone, Copy, Default)]
-struct StationSums {
-    even: Lanes,
-    tilting: Lanes,
+/// What one station gives to the outputs per rise of H there: in the mid-plane, and times zeta.
+#[derive(Debug, Clone, Copy)]
+struct StationSums<const L: usize> {
+    even: Lanes<L>,
+    tilting: Lanes<L>,
 }
 
-impl StationSums {
+impl<const L: usize> StationSums<L> {
+    fn new() -> Self {
+        Self {
+            even: [0.0; L],
+            tilting: [0.0; L],
+        }
+    }
+
     /// Adds the share of one face (adjoints before and behind it) or cell, given the derivative of
     /// its flow by H.
     #[inline]
-    fn add(&mut self, before: Lanes, behind: Lanes, by_height: f64, zeta: f64) {
-        for output in 0..4 {
+    fn add(&mut self, before: Lanes<L>, behind: Lanes<L>, by_height: f64, zeta: f64) {
+        for output in 0..L {
             let drop = (before[output] - behind[output]) * by_height;
             self.even[output] += drop;
-            self.tilting[output] += zeta * drop;
+            // Without moments among the outputs there is no tilt.
+            if L == 4 {
+                self.tilting[output] += zeta * drop;
+            }
         }
     }
 }
 
-/// Derivatives of the four outputs being summed: one row of lanes (outputs) per motion.
-#[derive(Debug, Clone, Copy, Default)]
-struct Sensitivity {
-    by_motion: [Lanes; 4],
+/// Derivatives of the outputs being summed: one row of lanes (outputs) per motion.
+#[derive(Debug, Clone, Copy)]
+struct Sensitivity<const L: usize> {
+    by_motion: [Lanes<L>; 4],
 }
 
-impl Sensitivity {
+impl<const L: usize> Sensitivity<L> {
+    fn new() -> Self {
+        Self {
+            by_motion: [[0.0; L]; 4],
+        }
+    }
+
     /// Adds a station. H falls by `cos * x + sin * y` with `(x, y) = position + zeta (ty, -tx)`, and
     /// the output is minus the adjoint times the balance: the two signs cancel.
-    fn add(&mut self, sums: &StationSums, [cos, sin]: [f64; 2]) {
+    fn add(&mut self, sums: &StationSums<L>, [cos, sin]: [f64; 2]) {
         let motions = [
             (cos, &sums.even),
             (sin, &sums.even),
@@ -661,18 +683,20 @@ impl Sensitivity {
         }
     }
 
-    /// As rows of outputs by motions, SI.
+    /// As rows of outputs by motions, SI; rows of what is no output are zero.
     fn in_units(&self, units: &Units) -> [[f64; 4]; 4] {
         let force = units.pressure * units.area;
         let moment = force * units.radius;
         let outputs = [force, force, moment, moment];
         let (per_length, per_tilt) = (1.0 / units.clearance, units.radius / units.clearance);
         let inputs = [per_length, per_length, per_tilt, per_tilt];
-        std::array::from_fn(|output| {
-            std::array::from_fn(|motion| {
-                self.by_motion[motion][output] * outputs[output] * inputs[motion]
-            })
-        })
+        let mut rows = [[0.0; 4]; 4];
+        for (output, row) in rows.iter_mut().enumerate().take(L) {
+            for (motion, value) in row.iter_mut().enumerate() {
+                *value = self.by_motion[motion][output] * outputs[output] * inputs[motion];
+            }
+        }
+        rows
     }
 }
 

@@ -141,6 +141,15 @@ impl Extent {
         }
     }
 
+    /// What the film puts on the journal: force and moment, or a force alone.
+    #[must_use]
+    pub fn outputs(self) -> usize {
+        match self {
+            Self::Whole => 4,
+            Self::Half => 2,
+        }
+    }
+
     /// Cells of the bearing for each that is solved.
     #[must_use]
     pub fn images(self) -> f64 {

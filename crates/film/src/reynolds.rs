@@ -17,6 +17,7 @@
 
 use crate::gap::Gap;
 use crate::grid::Grid;
+use crate::linear::larger;
 
 /// What limits the film around: at its first and last face.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -189,9 +190,9 @@ impl Operator {
     /// Largest flow that drives the film: dragged along, stored or released, 1/s.
     fn largest_drive(&self) -> f64 {
         let transport = self.transport.iter();
-        let dragged = transport.fold(0.0_f64, |a, b| a.max(b.abs()));
+        let dragged = transport.fold(0.0_f64, |a, b| larger(b.abs(), a));
         let stored = self.storage.iter().zip(&self.stored);
-        stored.fold(dragged, |a, (new, old)| a.max((new - old).abs()))
+        stored.fold(dragged, |a, (new, old)| larger((new - old).abs(), a))
     }
 
     /// Flow that transport takes out of a full cell, 1/s.
@@ -354,7 +355,7 @@ impl Operator {
         let mut scale = 0.0_f64;
         excess.fill(0.0);
         let mut flows = |i: usize, j: usize, flow: f64| {
-            scale = scale.max(flow.abs());
+            scale = larger(flow.abs(), scale);
             if i < n {
                 excess[i * m + j] += flow;
             }
@@ -396,14 +397,14 @@ impl Operator {
             excess[m - 1] -= out[1];
             for j in 1..m {
                 let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
-                scale = scale.max(flow.abs());
+                scale = larger(flow.abs(), scale);
                 excess[j] += flow;
                 excess[j - 1] -= flow;
             }
             for (j, excess) in excess.iter_mut().enumerate() {
                 let k = i * m + j;
                 let store = self.stored_flow(k, film_fraction[k]);
-                scale = scale.max(store.abs());
+                scale = larger(store.abs(), scale);
                 *excess -= store;
             }
         }

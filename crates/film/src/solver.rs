@@ -6,8 +6,9 @@
 //! 3. operator: what conducts, what is dragged along, what is stored
 //! 4. cavitation: the equations of the present set, solved directly, bordered by the feeds whose line
 //!    resists
-//! 5. integrals: force, moment, torques; tangents by adjoints on the same factors
-//! 6. the next set; unchanged means settled
+//! 5. the next set; where it differs in a few cells of known pressure the film follows it on the same
+//!    factors, else it waits for the next update; unchanged means settled
+//! 6. integrals: force, moment, torques; tangents by adjoints on the same factors
 
 use crate::bearing::{Bearing, Cavitation, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet, model_of};
@@ -28,7 +29,6 @@ use crate::narrowest::GapSearch;
 use crate::passage::{Passage, PassageState};
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Cell, Storage};
-use crate::settling::SetChange;
 use crate::supply::mark_fed_cells;
 use crate::surfaces::Surfaces;
 use sommerfeld_oil::{Lubricant, ShearThinning};
@@ -336,11 +336,18 @@ impl FilmSolver {
         let turned = self.frame.turn(state);
         let local = self.frame.to_grid(state, turned);
         self.film.iterations += 1;
-        self.film.unsettled = None;
         if !self.film.solve(self.closure.as_ref()) {
             return Linearised::without_film(Outcome::NoSolution);
         }
         self.film.account_feeds(&self.bearing, self.extent);
+        // Else the set moves on after the integrals, which are those of the set that was solved.
+        let early = self.film.can_settle(self.closure.as_ref());
+        self.film.settling.forget();
+        let settled_early = early && self.film.settle(self.closure.as_ref());
+        if early {
+            self.film.account_feeds(&self.bearing, self.extent);
+            self.film.swap_solved_cells();
+        }
         let reaction = self.extent.reaction(self.solved().reaction(&local));
         let tangent = match wanted {
             Wanted::Tangent => self.extent.tangent(self.tangent(step)),
@@ -350,12 +357,12 @@ impl FilmSolver {
         self.film.reaction = reaction;
         self.film
             .write_fields(&self.bearing, &self.grid, self.extent, turned);
-        self.film.keep_solved_cells();
-        let moved = self.film.advance_set(self.closure.as_ref());
-        let settled = moved == 0 && !self.film.is_bending;
-        if !settled && wanted == Wanted::Tangent {
-            self.film.unsettled = self.lacking(moved);
-        }
+        let settled = if early {
+            self.film.swap_solved_cells();
+            settled_early
+        } else {
+            self.film.advance_set(self.closure.as_ref()) == 0 && !self.film.is_bending
+        };
         Linearised {
             reaction,
             tangent,
@@ -368,41 +375,6 @@ impl FilmSolver {
                 Outcome::Converged
             },
         }
-    }
-
-    /// What the reaction lacks to that of the set that comes next, N and N m; `None` where more than
-    /// cells changed, or where a change is not one of a pressure alone.
-    fn lacking(&self, moved: usize) -> Option<[f64; 4]> {
-        let film = &self.film;
-        if self.closure.conserves_mass() || self.closure.cuts_pressures() {
-            return None;
-        }
-        let change = SetChange {
-            operator: &film.operator,
-            solved: &film.solved_cells,
-            next: &film.set,
-            pressure: &film.pressure,
-            excess: &film.excess,
-            adjoints: &film.adjoints,
-        };
-        if change.count() != moved || film.is_bending {
-            return None;
-        }
-        let solved = self.solved();
-        let [x, y, turn_x, turn_y] = change.outputs(|k| solved.output_weight(k));
-        let force = self.extent.images() * film.units.pressure * film.units.area;
-        let moment = force * film.units.radius;
-        // The frame of the grid may be turned against that of the shell.
-        let (size, turn) = match self.frame {
-            Frame::Shell => ([x, y], [turn_x, turn_y]),
-            Frame::LineOfCentres => ([x.hypot(y); 2], [turn_x.hypot(turn_y); 2]),
-        };
-        Some([
-            size[0] * force,
-            size[1] * force,
-            turn[0] * moment,
-            turn[1] * moment,
-        ])
     }
 
     /// Stage 1 to 3. `state` is in the frame of the grid.
@@ -503,7 +475,16 @@ impl FilmSolver {
 
     /// Tangents at the set of the last solution.
     fn tangent(&mut self, step: Step) -> Tangent {
-        let mut adjoints = std::mem::take(&mut self.film.adjoints);
+        match self.extent {
+            Extent::Whole => self.tangent_of::<4>(step),
+            Extent::Half => self.tangent_of::<2>(step),
+        }
+    }
+
+    /// The same of as many outputs as the extent has.
+    fn tangent_of<const L: usize>(&mut self, step: Step) -> Tangent {
+        let mut store = std::mem::take(&mut self.film.adjoints);
+        let (adjoints, _) = store.as_chunks_mut::<L>();
         let solved = self.solved();
         let closure = self.closure.as_ref();
         let (lines, fed_by) = (&self.film.lines, &self.film.fed_by);
@@ -512,17 +493,24 @@ impl FilmSolver {
                 Cell::Fed => lines.answers(fed_by, k),
                 _ => closure.loaded(solved.set, &self.film.solution, k),
             },
-            &mut adjoints,
+            adjoints,
         );
         if lines.has_unknowns() {
-            self.film.lines.close_adjoints(&mut adjoints);
+            self.film.lines.close_adjoints(adjoints);
         }
-        self.film.factor.solve_transposed(&mut adjoints);
+        self.film.factor.solve_transposed(adjoints);
+        self.film
+            .settling
+            .correct_adjoints(&self.film.operator, adjoints, |k| {
+                let solved = self.solved();
+                let stiffening = solved.stiffening(k);
+                solved.output_weight(k).map(|weight| weight * stiffening)
+            });
         // Known cells have no balance that could answer; those of a feed behind a line share one.
         for (k, adjoint) in adjoints.iter_mut().enumerate() {
             match self.film.set.cells[k] {
                 Cell::Fed => *adjoint = self.film.lines.multiplier(&self.film.fed_by, k),
-                Cell::Ruptured if !closure.conserves_mass() => *adjoint = [0.0; 4],
+                Cell::Ruptured if !closure.conserves_mass() => *adjoint = [0.0; L],
                 _ => {}
             }
         }
@@ -531,8 +519,8 @@ impl FilmSolver {
             pressure: closure.equation_pressure(&self.film.solution, &self.film.pressure),
             ..self.solved()
         };
-        let tangent = solved.tangent(&adjoints, storage);
-        self.film.adjoints = adjoints;
+        let tangent = solved.tangent(adjoints, storage);
+        self.film.adjoints = store;
         tangent
     }
 }
@@ -598,10 +586,6 @@ impl FilmForce for FilmSolver {
             updates += 1;
         }
         Ok((seen, updates))
-    }
-
-    fn unsettled(&self) -> Option<[f64; 4]> {
-        self.film.unsettled
     }
 
     fn summary(&self) -> FilmSummary {

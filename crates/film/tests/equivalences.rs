@@ -102,3 +102,77 @@ fn half_a_mirrored_film_is_the_whole() {
         }
     }
 }
+
+/// A front that moved by a few cells: the film found on the factors of the set before it is that of an
+/// elimination of its own, force, tangents, fields and flows.
+#[test]
+fn a_set_found_without_elimination_is_the_one_eliminated() {
+    let bearing = Bearing {
+        cavitation: Cavitation::Reynolds,
+        feeds: vec![feed_hole()],
+        ..big_end()
+    };
+    let c = bearing.radial_clearance;
+    for is_half in [true, false] {
+        let mut film = if is_half {
+            FilmSolver::aligned(&bearing, &oil(), [64, 16]).unwrap()
+        } else {
+            FilmSolver::new(&bearing, &oil(), [64, 16]).unwrap()
+        };
+        let mut moved = 0;
+        for k in 0..120 {
+            let angle = 0.02 * f64::from(k);
+            let tilt = if is_half { 0.0 } else { 1e-4 };
+            let state = JournalState {
+                position: [0.8 * c * angle.cos(), 0.8 * c * angle.sin()],
+                velocity: [-40.0 * c * (3.0 * angle).sin(), 60.0 * c],
+                tilt: [tilt * angle.cos(), tilt],
+                journal_speed: 209.0,
+                ..JournalState::default()
+            };
+            let before = film.set().clone();
+            let found = film.linearise(&state, Step::Steady, &conditions()).unwrap();
+            if !found.settled || *film.set() == before {
+                continue;
+            }
+            moved += 1;
+            let pressure = film.field().unwrap().pressure.to_vec();
+            let summary = film.summary();
+            let set = film.set().clone();
+            let eliminated = film.linearise(&state, Step::Steady, &conditions()).unwrap();
+            assert!(eliminated.settled && *film.set() == set);
+            let size = |v: [f64; 2]| v[0].hypot(v[1]);
+            let (a, b) = (found.reaction, eliminated.reaction);
+            for axis in 0..2 {
+                assert!(close(
+                    a.film_force[axis],
+                    b.film_force[axis],
+                    size(b.film_force)
+                ));
+                let moment = size(b.film_moment);
+                assert!(close(a.film_moment[axis], b.film_moment[axis], moment));
+            }
+            for (a, b) in [
+                (found.tangent.by_position, eliminated.tangent.by_position),
+                (found.tangent.by_rate, eliminated.tangent.by_rate),
+            ] {
+                for (a, b) in a.iter().zip(b) {
+                    let scale = b.iter().fold(0.0_f64, |s, v| s.max(v.abs()));
+                    for (a, b) in a.iter().zip(b) {
+                        assert!(close(*a, b, scale), "{k}: {a} {b} {scale}");
+                    }
+                }
+            }
+            let peak = film.summary().peak_film_pressure.value;
+            for (a, b) in pressure.iter().zip(film.field().unwrap().pressure) {
+                assert!(close(*a, *b, peak));
+            }
+            let flow = film.summary().side_flow[0];
+            assert!(close(summary.side_flow[0], flow, flow));
+            assert!(close(summary.feed_flow, film.summary().feed_flow, flow));
+            assert_eq!(summary.complementarity_violation, 0.0);
+            assert!(summary.cell_residual < 1e-11, "{}", summary.cell_residual);
+        }
+        assert!(moved > 20, "{moved}");
+    }
+}

@@ -29,6 +29,11 @@ pub trait CavitationModel: Send + Sync {
         false
     }
 
+    /// Ruptured cells have a known pressure and are no unknowns.
+    fn knows_pressures(&self) -> bool {
+        false
+    }
+
     /// Writes the linear equations of the set into `matrix` and `rhs`.
     fn assemble(
         &self,
@@ -169,6 +174,17 @@ fn assemble_balance(
             operator.stations_beside(i)[0],
             operator.stations_beside(i + 1)[1],
         ];
+        let is_full = |station: Option<usize>| {
+            station.is_some_and(|i| {
+                set.cells[i * m..(i + 1) * m]
+                    .iter()
+                    .all(|c| *c == Cell::Full)
+            })
+        };
+        if is_full(Some(i)) && is_full(before) && is_full(behind) {
+            assemble_full_station(operator, set, i, matrix, rhs);
+            continue;
+        }
         for j in 0..m {
             let k = i * m + j;
             let cell = set.cells[k];
@@ -230,6 +246,53 @@ fn assemble_balance(
             rhs[k] = row.rhs;
         }
     }
+}
+
+/// The same at a station with full stations on both sides: everything conducts, all transport is known.
+fn assemble_full_station(
+    operator: &Operator,
+    set: &FilmSet,
+    i: usize,
+    matrix: &mut RingMatrix,
+    rhs: &mut [f64],
+) {
+    let m = operator.n_axial;
+    let (here, next) = (i * m..(i + 1) * m, (i + 1) * m..(i + 2) * m);
+    let around = &operator.conductance_around;
+    let (to_west, to_east) = (&around[here.clone()], &around[next.clone()]);
+    let (inward, outward) = (&operator.transport[here.clone()], &operator.transport[next]);
+    let (storage, stored) = (
+        &operator.storage[here.clone()],
+        &operator.stored[here.clone()],
+    );
+    let along = &operator.conductance_axial[i * (m + 1)..(i + 1) * (m + 1)];
+    let (centre, west) = (
+        &mut matrix.centre[here.clone()],
+        &mut matrix.west[here.clone()],
+    );
+    let (east, south) = (
+        &mut matrix.east[here.clone()],
+        &mut matrix.south[here.clone()],
+    );
+    let (north, rhs) = (&mut matrix.north[here.clone()], &mut rhs[here.clone()]);
+    for j in 0..m {
+        west[j] = -to_west[j];
+        east[j] = -to_east[j];
+        south[j] = -along[j];
+        north[j] = -along[j + 1];
+        centre[j] = to_west[j] + to_east[j] + along[j] + along[j + 1];
+        rhs[j] = stored[j] - storage[j] + inward[j] - outward[j];
+    }
+    (south[0], north[m - 1]) = (0.0, 0.0);
+    for (end, cell, face) in [(0, 0, 0), (1, m - 1, m)] {
+        match operator.axial {
+            Axial::Bath(p) => rhs[cell] += along[face] * p,
+            Axial::Air(p) if set.end_open[2 * i + end] => rhs[cell] += along[face] * p,
+            // Nothing flows through it.
+            Axial::Air(_) | Axial::Closed => centre[cell] -= along[face],
+        }
+    }
+    matrix.loaded[here].fill(true);
 }
 
 /// One equation being written.

@@ -15,6 +15,10 @@ impl CavitationModel for Reynolds {
         false
     }
 
+    fn knows_pressures(&self) -> bool {
+        true
+    }
+
     fn assemble(
         &self,
         operator: &Operator,

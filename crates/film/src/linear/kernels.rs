@@ -1,7 +1,15 @@
 //! Small dense kernels of the ring solver: where its time goes. Matrices are row-major.
 
-/// Four right sides side by side.
-pub type Lanes = [f64; 4];
+/// Right sides side by side: four outputs of a film, or two where no moment acts.
+pub type Lanes<const L: usize = 4> = [f64; L];
+
+/// The larger of two numbers; `b` where `a` is not a number. One instruction in loops that [`f64::max`],
+/// which asks after both, would make wait.
+#[inline(always)]
+#[must_use]
+pub fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
 
 pub(super) fn add_diagonal(block: &mut [f64], diagonal: &[f64], in_use: &mut bool) {
     let m = diagonal.len();
@@ -92,6 +100,53 @@ fn product(a: &[f64], width: usize, x: &[f64], y: &mut [f64]) {
     }
 }
 
+/// `y = D^-T x` of one station.
+pub(super) fn apply_transposed<const L: usize>(
+    inverse: &[f64],
+    diagonal: &[f64],
+    columns: &[usize],
+    x: &[Lanes<L>],
+    y: &mut [Lanes<L>],
+) {
+    let width = columns.len();
+    if width == x.len() {
+        y.fill([0.0; L]);
+        return match width {
+            8 => add_product_transposed(inverse, 8, x, y),
+            16 => add_product_transposed(inverse, 16, x, y),
+            32 => add_product_transposed(inverse, 32, x, y),
+            _ => add_product_transposed(inverse, width, x, y),
+        };
+    }
+    for ((value, d), x) in y.iter_mut().zip(diagonal).zip(x) {
+        *value = x.map(|x| d * x);
+    }
+    if width == 0 {
+        return;
+    }
+    for (line, x) in inverse.chunks_exact(width).zip(x) {
+        for (entry, &j) in line.iter().zip(columns) {
+            add_lanes(&mut y[j], *entry, x);
+        }
+    }
+}
+
+/// `y += A^T x` for a square row-major A.
+#[inline(always)]
+fn add_product_transposed<const L: usize>(
+    a: &[f64],
+    width: usize,
+    x: &[Lanes<L>],
+    y: &mut [Lanes<L>],
+) {
+    let y = &mut y[..width];
+    for (line, x) in a.chunks_exact(width).zip(x) {
+        for (value, entry) in y.iter_mut().zip(line) {
+            add_lanes(value, *entry, x);
+        }
+    }
+}
+
 /// Four partial sums, so that the additions do not wait for one another.
 #[inline(always)]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -124,7 +179,11 @@ pub(super) fn subtract_product(a: &[f64], x: &[f64], y: &mut [f64]) {
     }
 }
 
-pub(super) fn subtract_product_transposed(a: &[f64], x: &[Lanes], y: &mut [Lanes]) {
+pub(super) fn subtract_product_transposed<const L: usize>(
+    a: &[f64],
+    x: &[Lanes<L>],
+    y: &mut [Lanes<L>],
+) {
     for (line, x) in a.chunks_exact(y.len()).zip(x) {
         let factor = x.map(|v| -v);
         for (value, entry) in y.iter_mut().zip(line) {
@@ -133,26 +192,31 @@ pub(super) fn subtract_product_transposed(a: &[f64], x: &[Lanes], y: &mut [Lanes
     }
 }
 
-pub(super) fn add_lanes(target: &mut Lanes, factor: f64, source: &Lanes) {
+#[inline]
+pub(super) fn add_lanes<const L: usize>(target: &mut Lanes<L>, factor: f64, source: &Lanes<L>) {
     for (value, entry) in target.iter_mut().zip(source) {
         *value += factor * entry;
     }
 }
 
 /// `x -= diagonal * y`.
-pub(super) fn subtract_scaled(x: &mut [Lanes], diagonal: &[f64], y: &[Lanes]) {
+pub(super) fn subtract_scaled<const L: usize>(
+    x: &mut [Lanes<L>],
+    diagonal: &[f64],
+    y: &[Lanes<L>],
+) {
     for ((value, factor), y) in x.iter_mut().zip(diagonal).zip(y) {
         add_lanes(value, -factor, y);
     }
 }
 
 /// The lines of two different stations, the first to be written.
-pub(super) fn two_stations(
-    x: &mut [Lanes],
+pub(super) fn two_stations<const L: usize>(
+    x: &mut [Lanes<L>],
     first: usize,
     second: usize,
     m: usize,
-) -> (&mut [Lanes], &[Lanes]) {
+) -> (&mut [Lanes<L>], &[Lanes<L>]) {
     if first < second {
         let (low, high) = x.split_at_mut(second * m);
         (&mut low[first * m..(first + 1) * m], &high[..m])

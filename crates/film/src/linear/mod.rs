@@ -5,5 +5,5 @@ mod kernels;
 pub mod ring;
 
 pub use dense::solve_dense;
-pub use kernels::Lanes;
+pub use kernels::{Lanes, larger};
 pub use ring::{RingFactor, RingMatrix};

@@ -13,9 +13,9 @@
 //! follows from them by scaling rows and columns alone, because its couplings are diagonal.
 
 use super::kernels::{
-    Lanes, add_diagonal, add_lanes, add_product, apply_inverse, multiply_left, multiply_right,
-    subtract_matrix_product, subtract_product, subtract_product_transposed, subtract_scaled,
-    subtract_scaled_line, sweep, two_stations,
+    Lanes, add_diagonal, add_product, apply_inverse, apply_transposed, larger, multiply_left,
+    multiply_right, subtract_matrix_product, subtract_product, subtract_product_transposed,
+    subtract_scaled, subtract_scaled_line, sweep, two_stations,
 };
 
 /// Five-point matrix in row form: entry `west[k]` of row `k` multiplies the unknown of the cell
@@ -69,21 +69,24 @@ impl RingMatrix {
         let (n, m) = (self.n_around, self.n_axial);
         let mut largest = 0.0_f64;
         for i in 0..n {
+            let here = i * m..(i + 1) * m;
             let before = if i == 0 { n - 1 } else { i - 1 } * m;
             let behind = if i + 1 == n { 0 } else { i + 1 } * m;
+            let (before, behind) = (&x[before..before + m], &x[behind..behind + m]);
+            let (centre, own) = (&self.centre[here.clone()], &x[here.clone()]);
+            let (west, east) = (&self.west[here.clone()], &self.east[here.clone()]);
+            let (south, north) = (&self.south[here.clone()], &self.north[here.clone()]);
+            let (rhs, residual) = (&rhs[here.clone()], &mut residual[here]);
             for j in 0..m {
-                let k = i * m + j;
-                let mut product = self.centre[k] * x[k]
-                    + self.west[k] * x[before + j]
-                    + self.east[k] * x[behind + j];
-                if j > 0 {
-                    product += self.south[k] * x[k - 1];
-                }
-                if j + 1 < m {
-                    product += self.north[k] * x[k + 1];
-                }
-                residual[k] = rhs[k] - product;
-                largest = largest.max(residual[k].abs());
+                let product = centre[j] * own[j] + west[j] * before[j] + east[j] * behind[j];
+                residual[j] = rhs[j] - product;
+            }
+            for j in 1..m {
+                residual[j] -= south[j] * own[j - 1];
+                residual[j - 1] -= north[j - 1] * own[j];
+            }
+            for value in residual {
+                largest = larger(value.abs(), largest);
             }
         }
         largest
@@ -119,8 +122,8 @@ pub struct RingFactor {
     product: Vec<f64>,
     line: Vec<f64>,
     border_line: Vec<f64>,
-    lanes: Vec<Lanes>,
-    border_lanes: Vec<Lanes>,
+    /// Lanes of one station and of the border.
+    lanes: Vec<f64>,
 }
 
 impl RingFactor {
@@ -148,8 +151,7 @@ impl RingFactor {
             product: vec![0.0; m * m],
             line: vec![0.0; m],
             border_line: vec![0.0; m],
-            lanes: vec![[0.0; 4]; m],
-            border_lanes: vec![[0.0; 4]; m],
+            lanes: vec![0.0; 2 * 4 * m],
         }
     }
 
@@ -239,38 +241,49 @@ impl RingFactor {
         }
     }
 
-    /// Solves the transposed system in place for four right sides at once, one per lane: the
-    /// adjoints of force and moment. The factors are read once for all four.
-    pub fn solve_transposed(&mut self, x: &mut [Lanes]) {
+    /// Solves the transposed system in place for several right sides at once, at most four, one per
+    /// lane: the adjoints of force and moment. The factors are read once for all of them.
+    pub fn solve_transposed<const L: usize>(&mut self, x: &mut [Lanes<L>]) {
+        let mut scratch = std::mem::take(&mut self.lanes);
+        let m = self.n_axial;
+        let (lanes, _) = scratch.as_chunks_mut();
+        let (here, border) = lanes.split_at_mut(m);
+        self.solve_lanes(x, here, &mut border[..m]);
+        self.lanes = scratch;
+    }
+
+    fn solve_lanes<const L: usize>(
+        &self,
+        x: &mut [Lanes<L>],
+        here: &mut [Lanes<L>],
+        at_border: &mut [Lanes<L>],
+    ) {
         let m = self.n_axial;
         let size = m * m;
         if let Some(border) = self.border {
-            self.border_lanes
-                .copy_from_slice(&x[border * m..(border + 1) * m]);
+            at_border.copy_from_slice(&x[border * m..(border + 1) * m]);
         }
-        for position in 0..self.order.len() {
-            let station = self.order[position];
-            self.apply_transposed(station, x);
+        for (position, &station) in self.order.iter().enumerate() {
+            let rows = station * m..(station + 1) * m;
+            self.apply_transposed(station, &x[rows.clone()], here);
             if self.has_to_border[station] {
                 let block = &self.to_border[station * size..(station + 1) * size];
-                subtract_product_transposed(block, &self.lanes, &mut self.border_lanes);
+                subtract_product_transposed(block, here, at_border);
             }
             if let Some(&next) = self.order.get(position + 1) {
-                let coupling = &self.ahead[station * m..(station + 1) * m];
-                subtract_scaled(&mut x[next * m..(next + 1) * m], coupling, &self.lanes);
+                subtract_scaled(&mut x[next * m..(next + 1) * m], &self.ahead[rows], here);
             }
         }
         if let Some(border) = self.border {
             let solution = &mut x[border * m..(border + 1) * m];
-            solution.fill([0.0; 4]);
-            subtract_product_transposed(&self.border_inverse, &self.border_lanes, solution);
+            solution.fill([0.0; L]);
+            subtract_product_transposed(&self.border_inverse, at_border, solution);
             for value in solution.iter_mut() {
                 *value = value.map(|v| -v);
             }
-            self.border_lanes.copy_from_slice(solution);
+            at_border.copy_from_slice(solution);
         }
-        for position in (0..self.order.len()).rev() {
-            let station = self.order[position];
+        for (position, &station) in self.order.iter().enumerate().rev() {
             if let Some(&next) = self.order.get(position + 1) {
                 let coupling = &self.behind[next * m..(next + 1) * m];
                 let (own, next) = two_stations(x, station, next, m);
@@ -279,31 +292,20 @@ impl RingFactor {
             let rows = station * m..(station + 1) * m;
             if self.has_from_border[station] {
                 let block = &self.from_border[station * size..(station + 1) * size];
-                subtract_product_transposed(block, &self.border_lanes, &mut x[rows.clone()]);
+                subtract_product_transposed(block, at_border, &mut x[rows.clone()]);
             }
-            self.apply_transposed(station, x);
-            x[rows].copy_from_slice(&self.lanes);
+            self.apply_transposed(station, &x[rows.clone()], here);
+            x[rows].copy_from_slice(here);
         }
     }
 
-    /// `lanes = D^-T x` of one station.
-    fn apply_transposed(&mut self, station: usize, x: &[Lanes]) {
+    /// `y = D^-T x` of one station.
+    fn apply_transposed<const L: usize>(&self, station: usize, x: &[Lanes<L>], y: &mut [Lanes<L>]) {
         let m = self.n_axial;
         let columns = &self.rows[self.start[station]..self.start[station + 1]];
         let inverse = &self.inverse[station * m * m..station * m * m + m * columns.len()];
         let diagonal = &self.inverse_diagonal[station * m..(station + 1) * m];
-        let x = &x[station * m..(station + 1) * m];
-        for ((value, d), x) in self.lanes.iter_mut().zip(diagonal).zip(x) {
-            *value = x.map(|x| d * x);
-        }
-        if columns.is_empty() {
-            return;
-        }
-        for (line, x) in inverse.chunks_exact(columns.len()).zip(x) {
-            for (entry, &j) in line.iter().zip(columns) {
-                add_lanes(&mut self.lanes[j], *entry, x);
-            }
-        }
+        apply_transposed(inverse, diagonal, columns, x, y);
     }
 
     fn collect_loaded_rows(&mut self, matrix: &RingMatrix) {
