@@ -6,7 +6,7 @@ mod common;
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, ContactLaw, Feed, FeedLine, FeedShape, FilmForce, FilmSolver,
-    Finish, GreenwoodTripp, Inlet, JournalState, Reaction, RoughFinish, Roughness, Step,
+    Finish, GreenwoodTripp, Inlet, JournalState, Outcome, Reaction, RoughFinish, Roughness, Step,
 };
 use sommerfeld_oil::{Lubricant, PressureLaw, ShearThinning};
 
@@ -320,11 +320,15 @@ fn tangents_hold_where_the_surfaces_overlap() {
     let centre = JournalState {
         position: [0.8 * c, 0.61 * c],
         tilt: [0.0; 2],
+        velocity: [0.0; 2],
+        tilt_rate: [0.0; 2],
+        journal_speed: 40.0,
         ..state(c)
     };
     let mut film = FilmSolver::new(&bearing, &engine_oil(), [64, 16]).unwrap();
     let answer = film.react(&centre, Step::Steady, &conditions()).unwrap();
     let contact = answer.reaction.contact_force;
+    assert_eq!(answer.outcome, Outcome::Converged);
     assert!(contact[0].hypot(contact[1]) > 0.0);
     assert!(film.summary().minimum_film_thickness.value < 0.0);
     let deviation = worst_deviation_of(&bearing, &engine_oil(), &centre, Step::Steady, 1e-7);
