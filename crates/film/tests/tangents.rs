@@ -316,6 +316,11 @@ fn tangents_hold_where_the_surfaces_overlap() {
         finish: rough(1e-3),
         ..big_end()
     };
+    // A film between overlapping surfaces is thicker in pressure than an oil that stiffens can answer.
+    let thinning = Lubricant {
+        viscosity_pressure: PressureLaw::None,
+        ..engine_oil()
+    };
     let c = bearing.radial_clearance;
     let centre = JournalState {
         position: [0.8 * c, 0.61 * c],
@@ -325,12 +330,12 @@ fn tangents_hold_where_the_surfaces_overlap() {
         journal_speed: 40.0,
         ..state(c)
     };
-    let mut film = FilmSolver::new(&bearing, &engine_oil(), [64, 16]).unwrap();
+    let mut film = FilmSolver::new(&bearing, &thinning, [64, 16]).unwrap();
     let answer = film.react(&centre, Step::Steady, &conditions()).unwrap();
     let contact = answer.reaction.contact_force;
     assert_eq!(answer.outcome, Outcome::Converged);
     assert!(contact[0].hypot(contact[1]) > 0.0);
     assert!(film.summary().minimum_film_thickness.value < 0.0);
-    let deviation = worst_deviation_of(&bearing, &engine_oil(), &centre, Step::Steady, 1e-7);
+    let deviation = worst_deviation_of(&bearing, &thinning, &centre, Step::Steady, 1e-7);
     assert!(deviation < 2e-5, "{deviation:e}");
 }
