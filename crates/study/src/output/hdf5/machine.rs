@@ -75,6 +75,10 @@ impl<W: Write + Seek> Layout<W> {
     fn machine_bearing(&mut self, group: Node, bearing: &BearingResults) -> io::Result<()> {
         self.file.set(group, "role", bearing.role.name());
         self.file.set(group, "status", status_of(bearing));
+        if let Some(first) = &bearing.turned_from {
+            let first = first.to_string();
+            self.file.set(group, "computed_as", first.as_str());
+        }
         self.bearing(group, &bearing.cycle.bearing)?;
         let load = self.file.group(group, "load")?;
         self.columns(load, load_columns(&bearing.load))?;
