@@ -11,11 +11,12 @@ mod machines;
 use machines::{inline_plan, study};
 use sommerfeld_bearing::CyclePoint;
 use sommerfeld_engine::{Role, arm_in_rod_frame};
-use sommerfeld_film::{Carrier, Cavitation, Feed, FeedLine, FeedShape, Shape};
+
+use sommerfeld_film::{Carrier, Feature, Feed, FeedLine, FeedShape, Shape};
 use sommerfeld_study::input::{FilmModel, Machine, MachinePlan};
 use sommerfeld_study::output::write_all;
 use sommerfeld_study::results::machine::{BearingResults, MachineResults};
-use sommerfeld_study::results::{Body, Results};
+use sommerfeld_study::results::{Body, CycleField, Results};
 use sommerfeld_study::{Outcome, RunOptions, solve_with};
 use std::fs;
 use std::ops::ControlFlow;
@@ -176,4 +177,175 @@ fn an_inline_six_needs_four_orbits() {
         let of_all = together.iter().find(|one| one.name == name).unwrap();
         assert_same_orbit(of_all, alone, CLOSURE);
     }
+}
+
+/// Films on a grid with turning oil holes: orbit, flows, fields and tables.
+#[test]
+fn films_with_holes_that_turn_are_shared_where_the_holes_agree() {
+    let mut plan = with_pin_holes(only(&six(), &["big-end-1", "big-end-2"]));
+    plan.orbit.crank_step = 2.0_f64.to_radians();
+    let together = solved(plan.clone(), FilmModel::Field);
+    assert_eq!(
+        origins(&together),
+        [None, Some("big-end-1 shifted by 480 deg".to_owned())]
+    );
+    let alone = solved(only(&plan, &["big-end-2"]), FilmModel::Field);
+    let [_, shared] = &machine(&together).speeds[0].bearings[..] else {
+        panic!("two bearings")
+    };
+    let own = &machine(&alone).speeds[0].bearings[0];
+    assert_same_orbit(shared, own, CLOSURE);
+    assert_same_fields(shared, own);
+    assert_same_tables(&together, &alone);
+}
+
+/// Fields at the same instants; maps of what the points of both surfaces have seen.
+fn assert_same_fields(shared: &BearingResults, alone: &BearingResults) {
+    let fields = |one: &BearingResults| one.cycle.fields.clone().unwrap();
+    let (a, b) = (fields(shared), fields(alone));
+    let angles = |frames: &[CycleField]| -> Vec<i64> {
+        frames
+            .iter()
+            .map(|frame| hundredths(frame.crank_angle))
+            .collect()
+    };
+    let start = 2.0 * std::f64::consts::TAU;
+    let within = |all: Vec<i64>| -> Vec<i64> {
+        all.iter()
+            .map(|angle| angle.rem_euclid(hundredths(start)))
+            .collect()
+    };
+    assert_eq!(within(angles(&a.frames)), within(angles(&b.frames)));
+    assert_eq!(a.frames.len(), 24);
+    let largest = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+    let same = |what: &str, a: &[f64], b: &[f64]| {
+        assert_eq!(a.len(), b.len());
+        let scale = largest(b);
+        for (a, b) in a.iter().zip(b) {
+            assert!(
+                (a - b).abs() < 2e-3 * scale,
+                "{what}: {a} for {b} of {scale}"
+            );
+        }
+    };
+    for (a, b) in a.frames.iter().zip(&b.frames) {
+        same("pressure", &a.field.pressure, &b.field.pressure);
+        same("film", &a.field.film_thickness, &b.field.film_thickness);
+    }
+    same("worst", &a.worst.field.pressure, &b.worst.field.pressure);
+    for (a, b) in [(&a.on_shell, &b.on_shell), (&a.on_journal, &b.on_journal)] {
+        same("film", &a.minimum_film_thickness, &b.minimum_film_thickness);
+        same("most", &a.maximum_pressure, &b.maximum_pressure);
+        same("amplitude", &a.pressure_amplitude, &b.pressure_amplitude);
+    }
+    let (a, b) = (&shared.cycle.feed_flows, &alone.cycle.feed_flows);
+    assert_eq!(a.len(), b.len());
+    let most = b
+        .iter()
+        .flatten()
+        .map(|one| one.flow.abs())
+        .fold(0.0, f64::max);
+    for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+        assert!((a.flow - b.flow).abs() < 2e-3 * most);
+    }
+}
+
+fn hundredths(angle: f64) -> i64 {
+    (100.0 * angle.to_degrees()).round() as i64
+}
+
+/// The rows of the tables of `big-end-2`, number by number: over the largest of their column, and angles
+/// apart from whole turns.
+fn assert_same_tables(together: &Results, alone: &Results) {
+    let rows = |results: &Results, file: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        write_all(results, directory.path()).unwrap();
+        let text = fs::read_to_string(directory.path().join(file)).unwrap();
+        let lines = text.lines().filter(|line| !line.starts_with('#'));
+        let lines: Vec<Vec<String>> = lines
+            .map(|line| line.split(',').map(str::to_owned).collect())
+            .collect();
+        lines
+    };
+    for file in ["loads-big-end-2.csv", "cycle-big-end-2.csv"] {
+        let (a, b) = (rows(together, file), rows(alone, file));
+        assert_eq!((a.len(), &a[0]), (b.len(), &b[0]), "{file}");
+        for (column, name) in a[0].iter().enumerate() {
+            let values = |rows: &[Vec<String>]| -> Vec<f64> {
+                rows[1..]
+                    .iter()
+                    .map(|row| row[column].parse().unwrap_or(f64::NAN))
+                    .collect()
+            };
+            let (a, b) = (values(&a), values(&b));
+            let scale = b.iter().map(|value| value.abs()).fold(0.0, f64::max);
+            // Solver counts and residuals are what they are; places jump between equal cells.
+            let is_compared = [
+                "load",
+                "eccentricity",
+                "film_thickness[",
+                "pressure[",
+                "power",
+                "flow",
+            ]
+            .iter()
+            .any(|part| name.contains(part));
+            for (a, b) in a.iter().zip(&b).filter(|_| is_compared) {
+                assert!((a - b).abs() <= 2e-3 * scale, "{file} {name}: {a} for {b}");
+            }
+        }
+    }
+}
+
+/// Whatever makes bearings differ, they are solved by themselves.
+#[test]
+fn nothing_is_shared_where_bearings_differ() {
+    let short = FilmModel::ShortBearing;
+    let plan = only(&six(), &["big-end-1", "big-end-2", "big-end-6"]);
+    assert_eq!(shared(&solved(plan.clone(), short)), 2);
+
+    // 700 crank steps do not divide into thirds: only the cylinder that fires half a period later is alike.
+    let mut odd = plan.clone();
+    odd.orbit.crank_step = (720.0_f64 / 700.0).to_radians();
+    let origins_of_odd = origins(&solved(odd, short));
+    assert_eq!(
+        origins_of_odd,
+        [None, None, Some("big-end-1 shifted by 360 deg".to_owned())]
+    );
+
+    let mut wider = plan;
+    wider.bearings[1].bearing.width *= 1.0 + 1e-6;
+    assert_eq!(shared(&solved(wider, short)), 1);
+}
+
+/// A hole 2 deg further on one pin, or a journal that is not round, is another bearing at that crank
+/// angle; a crowned journal turns into itself.
+#[test]
+fn what_turns_with_the_journal_counts() {
+    let both = only(&six(), &["big-end-1", "big-end-2"]);
+    let mut moved = with_pin_holes(both.clone());
+    moved.orbit.crank_step = 5.0_f64.to_radians();
+    let shared_with_hole = shared(&solved(moved.clone(), FilmModel::Field));
+    assert_eq!(shared_with_hole, 1);
+    moved.bearings[1].bearing.feeds[0].angle += 2.0_f64.to_radians();
+    assert_eq!(shared(&solved(moved, FilmModel::Field)), 0);
+
+    let shaped = |journal: Shape| {
+        let mut plan = both.clone();
+        plan.orbit.crank_step = 5.0_f64.to_radians();
+        for bearing in &mut plan.bearings {
+            bearing.bearing.journal = journal.clone();
+        }
+        shared(&solved(plan, FilmModel::Field))
+    };
+    let crowned = Shape::of([Feature::Crowning {
+        end_offset: -1e-6,
+        half_width: 0.017,
+    }]);
+    assert_eq!(shaped(crowned), 1);
+    let lemon = Shape::of([Feature::Lemon {
+        shift: -1e-6,
+        joint: 0.3,
+    }]);
+    assert_eq!(shaped(lemon), 0);
 }
