@@ -92,7 +92,7 @@ pub(super) struct Balance<'b, 'a> {
 
 /// A film as last updated.
 #[derive(Clone, Copy)]
-struct FilmAnswer {
+pub(super) struct FilmAnswer {
     at: Coordinates,
     gap: f64,
     linearised: Linearised,
@@ -166,19 +166,46 @@ impl Balance<'_, '_> {
         }
     }
 
+    /// Bound of how much a step may change any gap, m: no point of the journal moves further. Saves the
+    /// search for the narrowest place, which takes as long as the film where the surfaces have profiles.
+    fn reach(&self, place: &Place<'_>, step: Coordinates) -> f64 {
+        let [x, y, tilt_x, tilt_y] = place.seen(step);
+        let moved = x.hypot(y) + place.arm * tilt_x.hypot(tilt_y);
+        match self.stage.step {
+            Step::Steady => moved,
+            Step::Implicit { after, .. } => moved * (1.0 + after / self.stage.duration),
+        }
+    }
+
     /// Largest share (1, 1/2, 1/4, ...) of a step that leaves each smallest gap above
-    /// `(1 - gap loss)` of what it is now.
+    /// `(1 - gap loss)` of what it is now. Films as last updated save the search for the present gap.
     pub(super) fn allowed_share(
         &self,
         places: &[Place<'_>],
         from: &[Coordinates],
         step: &[Coordinates],
+        films: Option<&[FilmAnswer]>,
     ) -> f64 {
         let mut share = 1.0;
         for (journal, place) in places.iter().enumerate() {
+            let reach = self.reach(place, step[journal]);
+            let known = match self.stage.step {
+                Step::Steady => films.map(|films| &films[journal]),
+                // The gap at the end of the step is not the film's.
+                Step::Implicit { .. } => None,
+            };
+            if known.is_some_and(|film| {
+                let since = self.reach(place, add(place.seen(from[journal]), -1.0, film.at));
+                reach <= self.limits.gap_loss * (film.gap - since)
+            }) {
+                continue;
+            }
             let present = self.gap(place, journal, from[journal]);
             if present <= 0.0 {
                 // Only a film with soft surfaces gets here: overlap of the rigid shapes is its business.
+                continue;
+            }
+            if reach <= self.limits.gap_loss * present {
                 continue;
             }
             let floor = (1.0 - self.limits.gap_loss) * present;
@@ -400,7 +427,7 @@ impl Balance<'_, '_> {
             if settled && size <= self.limits.residual && relative_step <= self.limits.last_step() {
                 return Ok(self.finished(places, &newton.positions, &films, &step));
             }
-            let share = self.allowed_share(places, &newton.positions, &step);
+            let share = self.allowed_share(places, &newton.positions, &step, Some(&films));
             newton.advance(size, step.iter().map(|s| s.map(|v| share * v)).collect());
         }
         self.given_up(places, newton)

@@ -252,7 +252,8 @@ impl<'a> Run<'a> {
 
     /// Start state, its rates and the first points.
     fn start(&mut self, observer: &mut CoupledObserver<'_>) -> Result<Option<Outcome>, FilmError> {
-        self.moving.positions = start::settled(&mut self.stepper, self.first_angle)?;
+        self.moving.positions =
+            start::settled(&mut self.stepper, self.first_angle, self.is_constant)?;
         if !self.stepper.has_history {
             let trial = self.stepper.start_motion(&self.moving, self.crank_step)?;
             let outcome = trial.outcome;

@@ -231,7 +231,7 @@ impl Stepper<'_> {
             executor: self.executor,
         };
         let jump = difference(guess, safe, 1.0);
-        let share = balance.allowed_share(&self.places, safe, &jump);
+        let share = balance.allowed_share(&self.places, safe, &jump, None);
         let start = add_all(safe, share, &jump);
         let found = balance.find(&mut self.places, start)?;
         let missing = [0, 1].map(|axis| {

@@ -50,11 +50,16 @@ impl ElasticSix {
 
     /// The same with one cylinder, thick webs and a coarse grid.
     pub fn single() -> Self {
+        Self::single_with(0.032, Cavitation::Reynolds, Vec::new())
+    }
+
+    /// One cylinder, webs of this thickness (m), films of this closure, a coarse grid.
+    pub fn single_with(web_thickness: f64, cavitation: Cavitation, feeds: Vec<Feed>) -> Self {
         let mut train = common::general(common::inline(&[1]));
         train.unbalances.truncate(1);
         Self {
             grid: [32, 8],
-            ..Self::of(train, 0.032, Cavitation::Reynolds, Vec::new())
+            ..Self::of(train, web_thickness, cavitation, feeds)
         }
     }
 

@@ -4,6 +4,7 @@
 mod balances;
 #[path = "../common/mod.rs"]
 mod common;
+mod edges;
 #[path = "../common/elastic_six.rs"]
 mod elastic_six;
 mod engine;

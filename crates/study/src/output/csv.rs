@@ -198,7 +198,16 @@ pub(super) fn cycle_columns(cycle: &CycleResults) -> Vec<(String, Vec<f64>)> {
 /// # Errors
 /// [`OutputError::Content`].
 pub fn cycle_table(cycle: &CycleResults) -> Result<Vec<u8>, OutputError> {
-    let columns = cycle_columns(cycle);
+    cycle_table_with(cycle, Vec::new())
+}
+
+/// The orbit with further columns, each with a value for every point, behind those of a load cycle.
+pub(super) fn cycle_table_with(
+    cycle: &CycleResults,
+    further: Vec<(String, Vec<f64>)>,
+) -> Result<Vec<u8>, OutputError> {
+    let mut columns = cycle_columns(cycle);
+    columns.extend(further);
     let mut table = Table::new(CycleTable.file_name());
     let headers = columns.iter().map(|(name, _)| name.as_str());
     table.row(headers.chain(["status"]))?;

@@ -128,6 +128,9 @@ fn bearing_keys(bearing: &BearingResults, limits: &[LimitCheck]) -> Value {
         "role": bearing.role.name(),
         "status": status_of(bearing),
     });
+    if let Some(first) = &bearing.turned_from {
+        keys["computed_as"] = json!(first.to_string());
+    }
     if let (Value::Object(keys), Value::Object(cycle)) = (&mut keys, cycle_keys(&bearing.cycle)) {
         keys.extend(cycle);
     }

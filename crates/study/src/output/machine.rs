@@ -4,7 +4,7 @@
 //! The tables of one speed lie in the directory of the results where it is the only speed, and in
 //! a directory named after the speed, `2000rpm`, where there are several.
 
-use super::csv::{Table, begins_with, cycle_table, number};
+use super::csv::{Table, begins_with, cycle_table_with, number};
 use super::{OutputError, ResultWriter, StoredFields, replace_file};
 use crate::limits::{LimitCheck, Verdict};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults, speed_words};
@@ -135,7 +135,8 @@ impl ResultWriter for BearingTables {
                 files.push(loads);
                 if !bearing.cycle.orbit.points.is_empty() {
                     let cycle = place.join(format!("cycle-{}.csv", bearing.name));
-                    replace_file(&cycle, &cycle_table(&bearing.cycle)?)?;
+                    let further = determinate_columns(bearing);
+                    replace_file(&cycle, &cycle_table_with(&bearing.cycle, further)?)?;
                     files.push(cycle);
                 }
             }
@@ -327,6 +328,23 @@ fn load_table(speed: &SpeedResults, bearing: &BearingResults) -> Result<Vec<u8>,
     }
     text.extend(table.finish()?);
     Ok(text)
+}
+
+/// The load that hinges at the mains would give, where an elastic shaft gave another: not part of the load
+/// file, which is what the orbit answers.
+pub(super) fn determinate_columns(bearing: &BearingResults) -> Vec<(String, Vec<f64>)> {
+    let Some(hinges) = &bearing.determinate_load else {
+        return Vec::new();
+    };
+    if hinges.len() != bearing.cycle.orbit.points.len() {
+        return Vec::new();
+    }
+    let axes = ["x", "y"].into_iter().enumerate();
+    axes.map(|(axis, name)| {
+        let values = hinges.iter().map(|load| load[axis]).collect();
+        (format!("determinate_load_{name}[N]"), values)
+    })
+    .collect()
 }
 
 /// The columns of a load file: moments free the tilt, tilts prescribe it.

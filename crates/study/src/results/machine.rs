@@ -3,7 +3,7 @@
 //! Of the film at each speed the fields of the worst instant and what each point of the surfaces has
 //! seen are kept; frames over the cycle, at most [`MACHINE_FRAMES`], at the first speed only.
 
-use super::{CycleResults, rpm};
+use super::{CycleResults, degrees, rpm};
 use crate::limits::{Limit, LimitCheck, Verdict};
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{Performance, Role, TorsionResponse};
@@ -53,8 +53,27 @@ pub struct BearingResults {
     /// Where the mains are indeterminate: the load that hinges at the mains would give, N, at each point
     /// of the orbit.
     pub determinate_load: Option<Vec<[f64; 2]>>,
+    /// The bearing whose orbit this is at another crank angle; `None` for one that was solved itself.
+    pub turned_from: Option<TurnedFrom>,
     /// Orbit, film and what follows.
     pub cycle: CycleResults,
+}
+
+/// Another bearing of the machine that does the same at another crank angle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TurnedFrom {
+    /// Its name.
+    pub name: String,
+    /// Crank angle by which this bearing is later, rad.
+    pub later_by: f64,
+}
+
+impl std::fmt::Display for TurnedFrom {
+    /// For a reader: `big-end-1 shifted by 240 deg`.
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let angle = (1e6 * degrees(self.later_by)).round() / 1e6;
+        write!(formatter, "{} shifted by {angle} deg", self.name)
+    }
 }
 
 impl MachineResults {

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, CycleResults, Header, InstantCoefficients, MOST_FRAMES};
+use crate::results::{Body, CycleFields, CycleResults, Header, InstantCoefficients, MOST_FRAMES};
 use crate::spool::FieldSpool;
 use sommerfeld_bearing::{
     CyclePoint, JournalOrbit, LoadCycle, OrbitSettings, Progress, instant_coefficients,
@@ -55,6 +55,8 @@ pub(super) struct SolvedCycle {
     pub edge_contact: Option<(f64, usize)>,
     /// The caller asked to stop before the orbit had closed.
     pub stopped: bool,
+    /// The fields of each bearing that does the same later; none if the film showed none.
+    pub turned: Vec<CycleFields>,
 }
 
 /// The results of a bearing whose journal runs no orbit.
@@ -117,6 +119,7 @@ pub(super) fn bearing_cycle(
             results: without_orbit(&case.bearing, Outcome::Starved),
             edge_contact: None,
             stopped: false,
+            turned: Vec::new(),
         });
     }
     let mut watch = CycleWatch::new(duty, fields);
@@ -221,6 +224,7 @@ impl<'a> CycleWatch<'a> {
         let mut feed_flows = self.feed_flows;
         // The observer also saw the start of a cycle, which is not a point of its own.
         feed_flows.drain(..feed_flows.len().saturating_sub(orbit.points.len()));
+        let mut fields = self.fields.finish().into_iter();
         SolvedCycle {
             edge_contact: orbit.edge_contact(cycle, case.bearing.radial_clearance),
             stopped: self.stopped,
@@ -228,9 +232,10 @@ impl<'a> CycleWatch<'a> {
                 bearing: case.bearing.clone(),
                 orbit,
                 feed_flows,
-                fields: self.fields.finish(),
+                fields: fields.next(),
                 coefficients,
             },
+            turned: fields.collect(),
         }
     }
 

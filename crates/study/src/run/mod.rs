@@ -8,6 +8,7 @@ mod machine;
 mod record;
 mod steady;
 mod sweep;
+mod turn;
 
 use crate::input::{
     BearingCase, Duty, FilmModel, FilmSettings, StoredInstants, Study, Subject, TiltCondition,

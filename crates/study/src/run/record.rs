@@ -10,7 +10,11 @@
 //! between two centres is cut by at most the second difference of the field. A surface that
 //! stands is not interpolated at all. A share of the cycle is a mean over output points, which are
 //! evenly spaced; the indicator of a full film is interpolated like a field.
+//!
+//! Bearings that do the same later ([`Turn`]) have instants and a journal of their own; their shells
+//! have seen the same.
 
+use super::turn::Turn;
 use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot};
 use crate::spool::FieldSpool;
 use sommerfeld_bearing::{CyclePoint, Progress};
@@ -30,6 +34,8 @@ pub(super) struct FieldRecorder<'a> {
     stage: (usize, bool),
     record: Option<Record>,
     spool: Option<&'a mut FieldSpool>,
+    /// Bearings that do the same later.
+    turns: &'a [Turn],
 }
 
 /// The record of one cycle.
@@ -37,7 +43,16 @@ struct Record {
     frames: Vec<CycleField>,
     least_film: f64,
     worst: CycleField,
+    /// Output point of the worst instant.
+    worst_index: usize,
     on_shell: SurfaceRecord,
+    on_journal: SurfaceRecord,
+    turned: Vec<TurnedRecord>,
+}
+
+/// What a bearing that does the same later has of its own.
+struct TurnedRecord {
+    frames: Vec<CycleField>,
     on_journal: SurfaceRecord,
 }
 
@@ -57,7 +72,13 @@ impl<'a> FieldRecorder<'a> {
             stage: (0, false),
             record: None,
             spool,
+            turns: &[],
         }
+    }
+
+    /// Records also for bearings that do the same later.
+    pub(super) fn with_turns(self, turns: &'a [Turn]) -> Self {
+        Self { turns, ..self }
     }
 
     /// Takes one output point; `false` if the disk failed.
@@ -84,13 +105,20 @@ impl<'a> FieldRecorder<'a> {
             frames: Vec::new(),
             least_film: f64::INFINITY,
             worst: snapshot(),
+            worst_index: index,
             on_shell: SurfaceRecord::new(field),
             on_journal: SurfaceRecord::new(field),
+            turned: self
+                .turns
+                .iter()
+                .map(|_| TurnedRecord::new(field))
+                .collect(),
         });
         let thickness = point.summary.minimum_film_thickness.value;
         if thickness < record.least_film {
             record.least_film = thickness;
             record.worst = snapshot();
+            record.worst_index = index;
         }
         if is_frame(index, self.points, self.frames) {
             record.frames.push(snapshot());
@@ -99,20 +127,62 @@ impl<'a> FieldRecorder<'a> {
         record.on_shell.see(field, point.state.shell_angle, least);
         let turned = point.state.journal_angle;
         record.on_journal.see(field, turned, least);
+        for (own, turn) in record.turned.iter_mut().zip(self.turns) {
+            let index = turn.index(index);
+            if is_frame(index, self.points, self.frames) {
+                own.frames.push(CycleField {
+                    crank_angle: turn.crank_angle(index),
+                    ..snapshot()
+                });
+            }
+            let turned = turn.journal_angle(index, turned);
+            own.on_journal.see(field, turned, least);
+        }
         match &mut self.spool {
             Some(spool) => spool.push(point.crank_angle, field),
             None => true,
         }
     }
 
-    /// The fields of the last cycle; `None` if the film showed none.
-    pub(super) fn finish(self) -> Option<CycleFields> {
-        self.record.map(|record| CycleFields {
+    /// The fields of the last cycle, then those of each bearing that does the same later; none if the
+    /// film showed none.
+    pub(super) fn finish(self) -> Vec<CycleFields> {
+        let Some(record) = self.record else {
+            return Vec::new();
+        };
+        let (worst, worst_index) = (record.worst, record.worst_index);
+        let on_shell = record.on_shell.finish();
+        let turned = record.turned.into_iter().zip(self.turns);
+        let turned = turned.map(|(mut own, turn)| {
+            own.frames
+                .sort_by(|a, b| a.crank_angle.total_cmp(&b.crank_angle));
+            CycleFields {
+                frames: own.frames,
+                worst: CycleField {
+                    crank_angle: turn.crank_angle(turn.index(worst_index)),
+                    ..worst.clone()
+                },
+                on_shell: on_shell.clone(),
+                on_journal: own.on_journal.finish(),
+            }
+        });
+        let turned: Vec<CycleFields> = turned.collect();
+        let first = CycleFields {
             frames: record.frames,
-            worst: record.worst,
-            on_shell: record.on_shell.finish(),
+            worst,
+            on_shell,
             on_journal: record.on_journal.finish(),
-        })
+        };
+        std::iter::once(first).chain(turned).collect()
+    }
+}
+
+impl TurnedRecord {
+    fn new(field: &FilmField<'_>) -> Self {
+        Self {
+            frames: Vec::new(),
+            on_journal: SurfaceRecord::new(field),
+        }
     }
 }
 
@@ -232,7 +302,7 @@ mod tests {
                 see(&mut recorder, cycle, index, turned, speed, journal_speed);
             }
         }
-        recorder.finish().unwrap()
+        recorder.finish().swap_remove(0)
     }
 
     fn see(
@@ -253,6 +323,7 @@ mod tests {
             film_fraction: &vec![1.0; pressure.len()],
             pressure: &pressure,
             film_thickness: &thickness,
+            temperature: &[],
         };
         let least = thickness.iter().copied().fold(f64::INFINITY, f64::min);
         let mut summary = FilmSummary::default();

@@ -118,6 +118,7 @@ fn one(role: Role, index: usize, rpm: f64, with_fields: bool) -> BearingResults 
             tilt: CycleTilt::Aligned,
             feed_pressures: Vec::new(),
         },
+        turned_from: None,
         determinate_load: (role == Role::Main).then_some(determinate),
         cycle: CycleResults {
             bearing: own,

@@ -1,7 +1,9 @@
 //! An engine or shaft in `results.h5`: a group for each speed, in it one for each bearing.
 
 use super::super::csv::cycle_columns;
-use super::super::machine::{engine_columns, orders_columns, rounded_rpm, status_of};
+use super::super::machine::{
+    determinate_columns, engine_columns, orders_columns, rounded_rpm, status_of,
+};
 use super::{Layout, StoredFields, converged};
 use crate::hdf5::Node;
 use crate::results::degrees;
@@ -75,6 +77,10 @@ impl<W: Write + Seek> Layout<W> {
     fn machine_bearing(&mut self, group: Node, bearing: &BearingResults) -> io::Result<()> {
         self.file.set(group, "role", bearing.role.name());
         self.file.set(group, "status", status_of(bearing));
+        if let Some(first) = &bearing.turned_from {
+            let first = first.to_string();
+            self.file.set(group, "computed_as", first.as_str());
+        }
         self.bearing(group, &bearing.cycle.bearing)?;
         let load = self.file.group(group, "load")?;
         self.columns(load, load_columns(&bearing.load))?;
@@ -83,12 +89,7 @@ impl<W: Write + Seek> Layout<W> {
             let inner = self.file.group(group, "cycle")?;
             let mut columns = cycle_columns(cycle);
             columns.push(converged(cycle));
-            if let Some(hinges) = &bearing.determinate_load {
-                for (axis, name) in ["x", "y"].into_iter().enumerate() {
-                    let values = hinges.iter().map(|load| load[axis]).collect();
-                    columns.push((format!("determinate_load_{name}[N]"), values));
-                }
-            }
+            columns.extend(determinate_columns(bearing));
             self.columns(inner, columns)?;
         }
         if let Some(fields) = &cycle.fields {

@@ -6,10 +6,10 @@ use crate::report::chart::{Chart, Mark, Series};
 use crate::report::cycle::{self, CyclePart};
 use crate::report::detail::Detail;
 use crate::report::figures::thinned;
-use crate::report::format::Units;
+use crate::report::format::{Units, plain_number};
 use crate::report::page::{Card, Figure, FilmPart, Section, check_with_value, headline, subject};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
-use crate::results::{Header, magnitude};
+use crate::results::{Header, degrees, magnitude};
 use serde_json::{Value, json};
 use sommerfeld_engine::Role;
 use sommerfeld_film::Outcome;
@@ -53,7 +53,7 @@ pub(super) fn page(
             good: own.status == Outcome::Converged,
             checks: own.limits.iter().map(check_with_value).collect(),
             cards: without_curves(part.cards, detail),
-            note: part.hole,
+            note: note(bearing, part.hole),
             tables: part.tables,
         });
         headers.push(own);
@@ -72,6 +72,31 @@ pub(super) fn page(
         at,
     };
     (page, Value::Array(data))
+}
+
+/// What a page tells of a speed beside its figures: of the oil holes, and where the orbit is from.
+fn note(bearing: &BearingResults, hole: String) -> String {
+    let Some(first) = &bearing.turned_from else {
+        return hole;
+    };
+    let turned = if first.later_by == 0.0 {
+        format!(
+            "This bearing does the same as {}: its orbit is the one computed there.",
+            first.name
+        )
+    } else {
+        format!(
+            "This bearing does the same as {}, {}° of crank angle later: its orbit is the one computed \
+             there, shifted.",
+            first.name,
+            plain_number(degrees(first.later_by))
+        )
+    };
+    [hole, turned]
+        .into_iter()
+        .filter(|part| !part.is_empty())
+        .collect::<Vec<_>>()
+        .join(" ")
 }
 
 /// What a page tells of a speed at which there are no results of its bearing.

@@ -2,8 +2,8 @@
 
 use super::Work;
 use super::units::{BearingFound, UnitFound};
-use crate::input::MachineBearing;
-use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
+use crate::input::{MachineBearing, MachinePlan};
+use crate::results::machine::{BearingResults, MachineResults, SpeedResults, TurnedFrom};
 use crate::results::{CycleResults, Header};
 use crate::run::cycle::without_orbit;
 use crate::run::{edge_contact_message, outcome_message};
@@ -42,7 +42,11 @@ pub(super) fn assemble(
         {
             let found = by_place.remove(&(at, index));
             notes.extend(found.iter().flat_map(|found| found.notes.clone()));
-            bearings.push(bearing_results(planned, bearing, cycle, found));
+            let turned_from = turned_from(work.plan, found.as_ref());
+            bearings.push(BearingResults {
+                turned_from,
+                ..bearing_results(planned, bearing, cycle, found)
+            });
         }
         let mean_power = bearings.iter().map(mean_power_loss).sum::<f64>();
         // Work of the period over the swept volume.
@@ -102,8 +106,18 @@ fn bearing_results(
         index: planned.index,
         load,
         determinate_load,
+        turned_from: None,
         cycle,
     }
+}
+
+/// The bearing by its name whose orbit this is.
+fn turned_from(plan: &MachinePlan, found: Option<&BearingFound>) -> Option<TurnedFrom> {
+    let (bearing, later_by) = found?.turned_from?;
+    Some(TurnedFrom {
+        name: plan.bearings.get(bearing)?.name.clone(),
+        later_by,
+    })
 }
 
 fn mean_power_loss(bearing: &BearingResults) -> f64 {

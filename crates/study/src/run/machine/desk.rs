@@ -233,6 +233,7 @@ mod tests {
             },
             feed_flows: Vec::new(),
             fields: None,
+            turned_from: Some((1, 0.1)),
             notes: vec!["µ".to_owned()],
         }];
         let read = unpacked(&packed(&found).unwrap()).unwrap();
@@ -242,6 +243,7 @@ mod tests {
         };
         assert_eq!(bits(&read), bits(&found));
         assert_eq!(read[0].notes, found[0].notes);
+        assert_eq!(read[0].turned_from, Some((1, 0.1)));
         assert!(read[0].orbit.closure.is_nan());
         assert!(unpacked(b"neither deflated nor CBOR").is_err());
     }

@@ -4,6 +4,7 @@
 //! sequential and independent of the others. In a directory of results what a unit finds is kept in the
 //! ledger until the results are written: a run that ends in any way is taken up by the same command.
 
+mod alike;
 mod assemble;
 mod coupled;
 mod desk;
@@ -24,7 +25,7 @@ use assemble::assemble;
 use desk::{UnitDesk, read};
 use serde_json::json;
 use sommerfeld_engine::Mains;
-use speeds::SpeedLoads;
+use speeds::{SpeedLoads, points};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::Instant;
@@ -41,12 +42,18 @@ struct Work<'a> {
 impl<'a> Work<'a> {
     fn new(plan: &'a MachinePlan, film: &'a FilmSettings) -> Result<Self, RunError> {
         let speeds = plan.speeds.iter().map(|speed| SpeedLoads::of(plan, *speed));
+        let speeds: Vec<SpeedLoads> = speeds.collect::<Result<_, _>>()?;
         Ok(Self {
             plan,
             film,
-            speeds: speeds.collect::<Result<_, _>>()?,
-            units: units(plan),
+            units: units(plan, &speeds, points(plan)),
+            speeds,
         })
+    }
+
+    /// Output points of every orbit over its period.
+    fn points(&self) -> usize {
+        points(self.plan)
     }
 
     /// A bearing at a speed, by their indices, for a reader.
@@ -71,7 +78,7 @@ pub(super) fn run_machine(
     check_directory(directory, &study.files)?;
     let work = Work::new(plan, &study.film)?;
     prepare_directory(directory)?;
-    let mut ledger = Ledger::open(directory, &ledger_study(study, plan))?;
+    let mut ledger = Ledger::open(directory, &ledger_study(study, &work))?;
     let mut found = read(&ledger, work.units.len())?;
     let told = (!found.is_empty()).then(|| {
         let (done, units) = (found.len(), work.units.len());
@@ -140,11 +147,12 @@ fn results(study: &Study, work: Work<'_>, found: BTreeMap<usize, UnitFound>) -> 
 }
 
 /// The machine as its ledger knows it.
-fn ledger_study(study: &Study, plan: &MachinePlan) -> LedgerStudy {
+fn ledger_study(study: &Study, work: &Work<'_>) -> LedgerStudy {
+    let plan = work.plan;
     let inputs = |unit: &Unit| {
-        let names = unit.task.bearings().iter();
+        let names = unit.task.bearings().into_iter();
         let names: Vec<&str> = names
-            .filter_map(|index| plan.bearings.get(*index))
+            .filter_map(|index| plan.bearings.get(index))
             .map(|bearing| bearing.name.as_str())
             .collect();
         let speed = plan.speeds.get(unit.speed);
@@ -158,7 +166,8 @@ fn ledger_study(study: &Study, plan: &MachinePlan) -> LedgerStudy {
         },
         hash: study.input_hash.clone(),
         parts: vec![("the study".to_owned(), study.text.clone())],
-        cases: units(plan)
+        cases: work
+            .units
             .iter()
             .map(|unit| (inputs(unit), study.input_hash.clone()))
             .collect(),

@@ -149,7 +149,7 @@ impl SpeedLoads {
 }
 
 /// Rows of the results over one period.
-fn points(plan: &MachinePlan) -> usize {
+pub(super) fn points(plan: &MachinePlan) -> usize {
     (plan.period() / plan.orbit.crank_step).round().max(1.0) as usize
 }
 

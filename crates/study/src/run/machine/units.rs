@@ -1,10 +1,13 @@
 //! The orbits of a machine as units of work.
 //!
-//! A bearing whose load is known is a unit of its own. Bearings whose loads follow from each other are
+//! Bearings whose loads are known and do the same at other crank angles are one unit, of which one orbit
+//! is solved; mostly a unit holds a single bearing. Bearings whose loads follow from each other are
 //! one unit: the mains of an elastic crankshaft, the two films of a floating piston pin.
 
+use super::alike::{Later, groups, solve_alike};
 use super::coupled::solve_coupled;
 use super::pin::solve_pin;
+use super::speeds::SpeedLoads;
 use super::{ProgressCallback, RunError, Work};
 use crate::input::{
     BearingCase, CycleDuty, Duty, Machine, MachineBearing, MachinePlan, StoredInstants,
@@ -30,8 +33,8 @@ pub(super) struct Unit {
 /// What a unit has to do; bearings by their index in the plan.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Task {
-    /// The orbit of one bearing under a known load.
-    Alone([usize; 1]),
+    /// Bearings under known loads that do the same, some later than the first: one orbit for all.
+    Alike(Vec<Later>),
     /// Small end and piston boss of a pin that floats between them.
     Pin([usize; 2]),
     /// All bearings of an elastic shaft, in axial order.
@@ -40,11 +43,11 @@ pub(super) enum Task {
 
 impl Task {
     /// The bearings whose orbits it finds.
-    pub(super) fn bearings(&self) -> &[usize] {
+    pub(super) fn bearings(&self) -> Vec<usize> {
         match self {
-            Self::Alone(bearing) => bearing,
-            Self::Pin(films) => films,
-            Self::Coupled(bearings) => bearings,
+            Self::Alike(group) => group.iter().map(|one| one.bearing).collect(),
+            Self::Pin(films) => films.to_vec(),
+            Self::Coupled(bearings) => bearings.clone(),
         }
     }
 }
@@ -64,6 +67,9 @@ pub(super) struct BearingFound {
     pub feed_flows: Vec<Vec<FeedFlow>>,
     /// Fields.
     pub fields: Option<CycleFields>,
+    /// The bearing of the plan whose orbit this is, so much later, rad; `None` for one that was solved
+    /// itself.
+    pub turned_from: Option<(usize, f64)>,
     /// What the reader must know.
     pub notes: Vec<String>,
 }
@@ -72,19 +78,20 @@ pub(super) struct BearingFound {
 pub(super) type UnitFound = Vec<BearingFound>;
 
 /// Every unit of a machine, speed by speed, those that take longest first.
-pub(super) fn units(plan: &MachinePlan) -> Vec<Unit> {
+pub(super) fn units(plan: &MachinePlan, speeds: &[SpeedLoads], points: usize) -> Vec<Unit> {
     let shaft = on_elastic_shaft(plan).map(Task::Coupled);
     let pins = floating_pins(plan).into_iter().map(Task::Pin);
-    let mut tasks: Vec<Task> = shaft.into_iter().chain(pins).collect();
+    let tasks: Vec<Task> = shaft.into_iter().chain(pins).collect();
     let is_taken = |bearing: &usize| tasks.iter().any(|task| task.bearings().contains(bearing));
-    let alone = (0..plan.bearings.len()).filter(|bearing| !is_taken(bearing));
-    let alone: Vec<Task> = alone.map(|bearing| Task::Alone([bearing])).collect();
-    tasks.extend(alone);
-    let at = |speed: usize| {
-        let tasks = tasks.iter().cloned();
-        tasks.map(move |task| Unit { speed, task })
+    let known = (0..plan.bearings.len()).filter(|bearing| !is_taken(bearing));
+    let known: Vec<usize> = known.collect();
+    let at = |(speed, loads): (usize, &SpeedLoads)| {
+        let alike = groups(&known, (&loads.bearings, &loads.cycles), points);
+        let alike = alike.into_iter().map(Task::Alike);
+        let tasks = tasks.iter().cloned().chain(alike);
+        tasks.map(|task| Unit { speed, task }).collect::<Vec<_>>()
     };
-    (0..plan.speeds.len()).flat_map(at).collect()
+    speeds.iter().enumerate().flat_map(at).collect()
 }
 
 /// The bearings of a shaft whose bending is followed, from its free end.
@@ -128,13 +135,8 @@ pub(super) fn solve_unit(
     unit: &Unit,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<UnitFound, RunError> {
-    let cycles = &work.speeds[unit.speed].cycles;
     match &unit.task {
-        Task::Alone([bearing]) => {
-            let cycle = cycles[*bearing].clone();
-            let found = solve_alone(work, unit.speed, *bearing, cycle, progress)?;
-            Ok(vec![found])
-        }
+        Task::Alike(group) => solve_alike(work, unit.speed, group, progress),
         Task::Pin(films) => solve_pin(work, unit.speed, *films, progress),
         Task::Coupled(bearings) => solve_coupled(work, unit.speed, bearings, progress),
     }
@@ -165,6 +167,7 @@ impl BearingFound {
             orbit: results.orbit,
             feed_flows: results.feed_flows,
             fields: results.fields,
+            turned_from: None,
             notes: Vec::new(),
         }
     }
