@@ -96,6 +96,7 @@ pub(crate) struct Fields {
     pub(crate) film_fraction: Vec<f64>,
     pub(crate) film_thickness: Vec<f64>,
     pub(crate) temperature: Vec<f64>,
+    pub(crate) contact_pressure: Vec<f64>,
 }
 
 impl FilmState {
@@ -166,6 +167,7 @@ impl FilmState {
                 film_fraction: all.clone(),
                 film_thickness: all,
                 temperature: Vec::new(),
+                contact_pressure: Vec::new(),
             },
             temperature: None,
             account: None,
@@ -588,6 +590,15 @@ impl FilmState {
         let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
         let thickness = |k: usize| nominal[k] * units.clearance;
         extent.unfold(m, thickness, &mut fields.film_thickness);
+        if !self.contact.is_empty() {
+            fields.contact_pressure.resize(fields.pressure.len(), 0.0);
+            // Asperities do not reach the ground of a groove.
+            let contact = |k: usize| match self.set.cells[k] {
+                Cell::Fed => 0.0,
+                _ => self.contact[k][0] * units.pressure,
+            };
+            extent.unfold(m, contact, &mut fields.contact_pressure);
+        }
         if let Some(temperature) = &self.temperature {
             fields.temperature.resize(fields.pressure.len(), 0.0);
             extent.unfold(m, |k| temperature[k], &mut fields.temperature);

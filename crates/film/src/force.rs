@@ -363,6 +363,8 @@ pub struct FilmField<'a> {
     pub film_thickness: &'a [f64],
     /// Temperature, K, where it is a field; else empty.
     pub temperature: &'a [f64],
+    /// Contact pressure of asperities, Pa; empty where none carry.
+    pub contact_pressure: &'a [f64],
 }
 
 /// The film content of the past, opaque to callers.

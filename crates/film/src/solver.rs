@@ -618,6 +618,7 @@ impl FilmForce for FilmSolver {
             film_fraction: &fields.film_fraction,
             film_thickness: &fields.film_thickness,
             temperature: &fields.temperature,
+            contact_pressure: &fields.contact_pressure,
         })
     }
 

@@ -164,6 +164,7 @@ mod tests {
                 film_fraction: &row(1.0),
                 film_thickness: &row(2.0),
                 temperature: &[],
+                contact_pressure: &[],
             };
             assert!(spool.push(value, &field));
         };

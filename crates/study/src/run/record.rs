@@ -324,6 +324,7 @@ mod tests {
             pressure: &pressure,
             film_thickness: &thickness,
             temperature: &[],
+            contact_pressure: &[],
         };
         let least = thickness.iter().copied().fold(f64::INFINITY, f64::min);
         let mut summary = FilmSummary::default();
