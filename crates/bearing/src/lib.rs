@@ -28,7 +28,9 @@ pub use heat_field::{HeatFieldSettings, WarmEquilibrium, warm_equilibrium};
 pub use load_cycle::{
     CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle, closing_edge,
 };
-pub use orbit::{Observer, OrbitSettings, OrbitStart, Progress, journal_orbit};
+pub use orbit::{
+    CycleHeat, Observer, OrbitSettings, OrbitStart, Progress, WarmOrbit, journal_orbit, warm_orbit,
+};
 pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
 pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};
 pub use step_control::Substeps;

@@ -20,7 +20,8 @@ use crate::time_step::{Moving, Stepper, Trial};
 use crate::{CyclePoint, JournalOrbit, LoadCycle};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::{
-    Bearing, Conditions, FilmError, FilmForce, FilmHistory, JournalState, Linearised, Outcome, Step,
+    Bearing, Conditions, FilmError, FilmForce, FilmHistory, JournalState, Linearised, Outcome,
+    Step, Surroundings, Warmed,
 };
 use std::ops::ControlFlow;
 
@@ -146,33 +147,110 @@ pub fn journal_orbit(
     observer: &mut Observer<'_>,
 ) -> Result<JournalOrbit, FilmError> {
     let mut run = Run::new(film, bearing, cycle, conditions, settings)?;
-    if let Some(outcome) = run.start(observer)? {
-        return Ok(run.orbit(1, f64::NAN, outcome));
+    run.until_closed(observer)
+}
+
+/// How the film of an orbit is warmed.
+#[derive(Debug, Clone, Copy)]
+pub struct CycleHeat<'a> {
+    /// What the oil brings and what surrounds it.
+    pub surroundings: Surroundings<'a>,
+    /// The orbit is closed only when no temperature changes by more than this from cycle to cycle, K.
+    pub tolerance: f64,
+}
+
+/// An orbit with the temperatures of its film.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WarmOrbit {
+    /// The orbit in the warm film.
+    pub orbit: JournalOrbit,
+    /// Temperatures, and where the heat goes, mean over the last cycle.
+    pub warmed: Warmed,
+    /// Largest change of a temperature at the end of each cycle, K.
+    pub changes: Vec<f64>,
+}
+
+/// [`journal_orbit`] in the film's own temperatures: those that the heat and the flows of a whole cycle
+/// lead to. A film is warmed through within many cycles and does not follow one, so that the temperatures
+/// stay as they are within a cycle and move at its end.
+///
+/// # Errors
+/// As [`journal_orbit`]; [`FilmError::Unsupported`] for a film without a field of temperature.
+pub fn warm_orbit(
+    film: &mut dyn FilmForce,
+    bearing: &Bearing,
+    cycle: &LoadCycle,
+    conditions: &Conditions<'_>,
+    settings: &OrbitSettings,
+    heat: &CycleHeat<'_>,
+    observer: &mut Observer<'_>,
+) -> Result<WarmOrbit, FilmError> {
+    if film.field().is_none() {
+        return Err(FilmError::Unsupported {
+            reason: "a field of temperature needs model = \"field\"",
+        });
     }
-    let mut closure = f64::NAN;
-    for number in 1..=settings.cycle_limit.max(1) {
-        let before = std::mem::take(&mut run.points);
-        if let Some(last) = before.last() {
-            run.points.push(CyclePoint {
-                crank_angle: run.stepper.table.first_angle(),
-                ..*last
-            });
+    let mut run = Run::new(film, bearing, cycle, conditions, settings)?;
+    run.heat = Some(heat);
+    let orbit = run.until_closed(observer)?;
+    Ok(WarmOrbit {
+        orbit,
+        warmed: run.warmed,
+        changes: run.changes,
+    })
+}
+
+/// A film whose heat falls as it warms takes this share of a change.
+const WARMING_SHARE: f64 = 0.7;
+
+impl Run<'_> {
+    /// Cycles until the orbit closes, and the temperatures with it.
+    fn until_closed(&mut self, observer: &mut Observer<'_>) -> Result<JournalOrbit, FilmError> {
+        let run = self;
+        let settings = run.settings;
+        if let Some(outcome) = run.start(observer)? {
+            return Ok(run.orbit(1, f64::NAN, outcome));
         }
-        if let Some(outcome) = run.cycle(number, observer)? {
-            return Ok(run.orbit(number, closure, outcome));
-        }
-        closure = run.closure(&before, number).unwrap_or(closure);
-        if closure < settings.closure_tolerance {
-            let solved = run.points.iter().all(|p| p.outcome == Outcome::Converged);
-            let outcome = if solved {
-                Outcome::Converged
-            } else {
-                Outcome::NotConverged
+        let mut closure = f64::NAN;
+        for number in 1..=settings.cycle_limit.max(1) {
+            let before = std::mem::take(&mut run.points);
+            if let Some(last) = before.last() {
+                run.points.push(CyclePoint {
+                    crank_angle: run.stepper.table.first_angle(),
+                    ..*last
+                });
+            }
+            if let Some(outcome) = run.cycle(number, observer)? {
+                return Ok(run.orbit(number, closure, outcome));
+            }
+            closure = run.closure(&before, number).unwrap_or(closure);
+            let is_warm = match run.warm() {
+                Some(is_warm) => is_warm,
+                None => return Ok(run.orbit(number, closure, Outcome::NoSolution)),
             };
-            return Ok(run.orbit(number, closure, outcome));
+            if closure < settings.closure_tolerance && is_warm {
+                let solved = run.points.iter().all(|p| p.outcome == Outcome::Converged);
+                let outcome = if solved {
+                    Outcome::Converged
+                } else {
+                    Outcome::NotConverged
+                };
+                return Ok(run.orbit(number, closure, outcome));
+            }
         }
+        Ok(run.orbit(settings.cycle_limit.max(1), closure, Outcome::NotConverged))
     }
-    Ok(run.orbit(settings.cycle_limit.max(1), closure, Outcome::NotConverged))
+
+    /// Moves the temperatures to what the cycle leads to; whether they stayed. `None` where heat has no
+    /// way out.
+    fn warm(&mut self) -> Option<bool> {
+        let Some(heat) = self.heat else {
+            return Some(true);
+        };
+        self.warmed = self.film.warm(&heat.surroundings, WARMING_SHARE)?;
+        self.changes.push(self.warmed.change);
+        Some(self.warmed.change <= heat.tolerance)
+    }
 }
 
 /// A run in progress.
@@ -192,6 +270,10 @@ struct Run<'a> {
     failed_points: usize,
     /// A substep since the last point did not converge.
     failed_since: bool,
+    /// How the film is warmed, if it is, and what came of it.
+    heat: Option<&'a CycleHeat<'a>>,
+    warmed: Warmed,
+    changes: Vec<f64>,
 }
 
 impl<'a> Run<'a> {
@@ -255,6 +337,9 @@ impl<'a> Run<'a> {
             steps: 0,
             failed_points: 0,
             failed_since: false,
+            heat: None,
+            warmed: Warmed::default(),
+            changes: Vec::new(),
         })
     }
 
@@ -500,6 +585,10 @@ impl<'a> Run<'a> {
             outcome,
         };
         self.points.push(point);
+        if self.heat.is_some() && index > 0 {
+            let duration = self.crank_step / self.stepper.engine_speed;
+            self.film.account_heat(duration);
+        }
         let progress = Progress {
             cycle: number,
             fraction: index as f64 / self.count as f64,
@@ -530,9 +619,9 @@ impl<'a> Run<'a> {
             .then(|| largest(&mut distances))
     }
 
-    fn orbit(self, cycles: usize, closure: f64, outcome: Outcome) -> JournalOrbit {
+    fn orbit(&mut self, cycles: usize, closure: f64, outcome: Outcome) -> JournalOrbit {
         JournalOrbit {
-            points: self.points,
+            points: std::mem::take(&mut self.points),
             cycles,
             closure,
             steps: self.steps,
