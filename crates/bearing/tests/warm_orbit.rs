@@ -96,7 +96,6 @@ fn settings() -> OrbitSettings {
     OrbitSettings {
         crank_step: 5.0_f64.to_radians(),
         cycle_limit: 60,
-        closure_tolerance: 1e-5,
         ..OrbitSettings::default()
     }
 }
