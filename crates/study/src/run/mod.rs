@@ -415,8 +415,9 @@ fn edge_contact_message(edge: usize, at: &str) -> String {
     let name = ["front (z = -B/2)", "rear (z = +B/2)"][edge];
     format!(
         "edge contact: {at} the moment presses the {name} edge of the journal to contact, a film \
-         between rigid surfaces carries no such moment there; give a smaller moment, a wider \
-         bearing or a smaller clearance, or prescribe the tilt"
+         between rigid smooth surfaces carries no such moment there; give a smaller moment, a \
+         wider bearing or a smaller clearance, a crowned bore, rough surfaces with contact, or \
+         prescribe the tilt (under an elastic shaft: give support_tilt_stiffness)"
     )
 }
 
@@ -446,6 +447,10 @@ fn outcome_message(outcome: Outcome, analysis: &str) -> Option<&'static str> {
              ambient_pressure above cavitation_pressure; or use cavitation = \"reynolds\", which \
              needs no supply and does not conserve oil",
         ),
-        Outcome::NoSolution => Some("no solution: the film's equations determine no pressure here"),
+        Outcome::NoSolution => Some(
+            "no solution: the film's equations determine no pressure here, or an oil that thickens \
+             under pressure would need more than the limit of its reduced pressure; give an elastic \
+             shell, rough surfaces with contact or a smaller load",
+        ),
     }
 }
