@@ -11,7 +11,7 @@ use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Feature, Feed, FeedLine, FeedShape, FilmForce, FilmSolver,
     JournalState, Outcome, Shape, Step,
 };
-use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
+use sommerfeld_oil::Lubricant;
 use std::f64::consts::PI;
 
 const CLEARANCE: f64 = 40e-6;
@@ -40,10 +40,7 @@ fn at_gap(bore: &Shape, grid: [usize; 2], gap: f64) -> [f64; 2] {
         bore: bore.clone(),
         ..plain_bearing(0.085, 2.0 * HALF_WIDTH, CLEARANCE)
     };
-    let oil = Lubricant {
-        viscosity: ViscosityLaw::Constant { viscosity: 0.01 },
-        density: DensityLaw::Constant { density: 850.0 },
-    };
+    let oil = Lubricant::constant(0.01, 850.0);
     let mut film = FilmSolver::new(&bearing, &oil, grid).unwrap();
     let tilt = 0.25 * CLEARANCE / HALF_WIDTH;
     let state = |x: f64| JournalState {
