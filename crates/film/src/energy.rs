@@ -17,6 +17,7 @@
 
 use crate::grid::Grid;
 use crate::linear::{Lanes, RingFactor, RingMatrix, solve_dense};
+use serde::{Deserialize, Serialize};
 
 /// Inflow below this share of the largest flow is none: such a cell has the temperature of the supply.
 const NOTHING: f64 = 1e-10;
@@ -85,7 +86,7 @@ pub struct FilmTemperature {
 }
 
 /// Energy per time, W; what oil carries is counted from the supply's temperature.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyBalance {
     /// Heat made in the film.
     pub generated: f64,

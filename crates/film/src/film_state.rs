@@ -3,18 +3,21 @@
 
 use crate::bearing::{Bearing, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet};
+use crate::energy::HeatAccount;
 use crate::feed_lines::FeedLines;
 use crate::force::{Conditions, FeedFlow, Reaction, Step};
 use crate::gap::Gap;
 use crate::grid::Grid;
+use crate::heat::FilmHeat;
 use crate::integrals::Units;
 use crate::journal_state::JournalState;
 use crate::linear::{Lanes, RingFactor, RingMatrix};
 use crate::mirror::Extent;
+use crate::nonlinear::{EndOpening, Expansion, FilmEquations};
 use crate::passage::Passage;
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Around, Axial, Cell, Operator};
-use sommerfeld_oil::Lubricant;
+use sommerfeld_oil::{CompressionLaw, Lubricant};
 
 /// Flow below this share of the largest is round-off of the direct solution.
 const ROUND_OFF: f64 = 1e-12;
@@ -37,6 +40,12 @@ pub(crate) struct FilmState {
     pub(crate) pressure: Vec<f64>,
     /// Pressure per cell, 1/s, and its derivative by the reduced one, where they differ.
     pub(crate) stiffened: Vec<[f64; 2]>,
+    /// About what density and displacement are linearised, and the content of cells then.
+    pub(crate) expansion: Expansion,
+    /// Flow into store per H, 1/s, per cell; 0 without a step.
+    pub(crate) held_per_height: Vec<f64>,
+    /// Density and displacement changed by more than round-off in the last solution.
+    pub(crate) is_bending: bool,
     /// What the gap lets through, where it is not smooth or its oil not the same everywhere.
     pub(crate) passage: Option<Passage>,
     /// Contact pressure per cell, 1/s, and its derivative by the nominal H; empty without contact.
@@ -67,9 +76,16 @@ pub(crate) struct FilmState {
     pub(crate) state: JournalState,
     pub(crate) reaction: Reaction,
     pub(crate) units: Units,
+    pub(crate) compression: CompressionLaw,
+    /// Of the shell, m/Pa.
+    pub(crate) compliance: f64,
     pub(crate) density: f64,
     pub(crate) feed_flows: Vec<FeedFlow>,
     pub(crate) fields: Fields,
+    /// Temperature per cell, K, where it is a field.
+    pub(crate) temperature: Option<Vec<f64>>,
+    pub(crate) account: Option<HeatAccount>,
+    pub(crate) heat: FilmHeat,
 }
 
 /// The fields in SI, as the caller sees them.
@@ -79,6 +95,7 @@ pub(crate) struct Fields {
     pub(crate) pressure: Vec<f64>,
     pub(crate) film_fraction: Vec<f64>,
     pub(crate) film_thickness: Vec<f64>,
+    pub(crate) temperature: Vec<f64>,
 }
 
 impl FilmState {
@@ -112,6 +129,13 @@ impl FilmState {
             correction: zero.clone(),
             pressure: zero.clone(),
             stiffened: Vec::new(),
+            expansion: Expansion::new(
+                n * m,
+                lubricant.density_pressure != CompressionLaw::None,
+                bearing.elasticity.compliance() > 0.0,
+            ),
+            held_per_height: zero.clone(),
+            is_bending: false,
             passage: None,
             contact: Vec::new(),
             reduced: ReducedPressure::Same,
@@ -131,6 +155,8 @@ impl FilmState {
             state: JournalState::default(),
             reaction: Reaction::default(),
             units: Units::of(bearing, lubricant.viscosity(373.15, 0.0).value),
+            compression: lubricant.density_pressure,
+            compliance: bearing.elasticity.compliance(),
             density: 0.0,
             feed_flows: vec![FeedFlow::default(); bearing.feeds.len()],
             fields: Fields {
@@ -139,7 +165,11 @@ impl FilmState {
                 pressure: all.clone(),
                 film_fraction: all.clone(),
                 film_thickness: all,
+                temperature: Vec::new(),
             },
+            temperature: None,
+            account: None,
+            heat: FilmHeat::default(),
         }
     }
 
@@ -162,10 +192,12 @@ impl FilmState {
         }
     }
 
-    /// The pressure (1/s) of a cell's unknown, or of its reduced pressure.
-    pub(crate) fn stiffen(&mut self) {
+    /// What the new solution makes of pressure, density and displacement, the place about which the next
+    /// one is linearised.
+    fn expand(&mut self, closure: &dyn CavitationModel) {
         self.exceeds_limit = false;
-        if self.reduced == ReducedPressure::Same {
+        self.is_bending = false;
+        if self.reduced == ReducedPressure::Same && self.expansion.is_linear() {
             self.stiffened.clear();
             return;
         }
@@ -180,6 +212,82 @@ impl FilmState {
                     [pressure / unit, slope]
                 }
             };
+        }
+        if !self.expansion.is_linear() {
+            self.move_expansion();
+            let pressure = closure.equation_pressure(&self.solution, &self.pressure);
+            self.expansion.pressure.copy_from_slice(pressure);
+        }
+    }
+
+    /// Density and displacement at the new pressures.
+    fn move_expansion(&mut self) {
+        const ROUND_OFF: f64 = 1e-9;
+        let unit = self.units.pressure;
+        for k in 0..self.pressure.len() {
+            let [pressure, slope] = self.stiffened[k];
+            let change = self.pressure[k] - self.expansion.pressure[k].max(0.0);
+            let mut content = self.film_fraction[k];
+            if let Some(density) = self.expansion.density.get_mut(k) {
+                let is_full = self.set.cells[k] == Cell::Full;
+                let next = if is_full {
+                    let (factor, by_pressure) = self.compression.factor(pressure * unit);
+                    [factor, by_pressure * unit * slope]
+                } else {
+                    [1.0, 0.0]
+                };
+                let linear = density[0] + density[1] * change;
+                self.is_bending |= is_full && (next[0] - linear).abs() > ROUND_OFF;
+                *density = next;
+                content *= next[0];
+            }
+            if let Some(displacement) = self.expansion.displacement.get_mut(k) {
+                let compliance = self.compliance * unit / self.units.clearance;
+                let contact = self.contact.get(k).map_or([0.0; 2], |contact| *contact);
+                let fed = self.set.cells[k] == Cell::Fed;
+                let next = if fed {
+                    0.0
+                } else {
+                    compliance * (pressure.max(0.0) + contact[0])
+                };
+                let height = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height)[k];
+                // A step that opens the gap by more than it is has left what its slopes are good for.
+                let most = 0.5 * height.abs().max(displacement[0].abs()).max(1e-3);
+                let moved = (next - displacement[0]).clamp(-most, most);
+                self.is_bending |= moved.abs() > ROUND_OFF * height.abs().max(1e-3);
+                // A pressure that was cut does not move the shell.
+                let slope = if fed || pressure <= 0.0 {
+                    0.0
+                } else {
+                    compliance * slope
+                };
+                *displacement = [displacement[0] + moved, slope];
+            }
+            self.expansion.content[k] = content;
+        }
+    }
+
+    /// Displacement at the boundaries, over the clearance.
+    pub(crate) fn end_opening(&self, bearing: &Bearing) -> EndOpening {
+        let of = |pressure: f64| {
+            let above = (pressure - bearing.cavitation_pressure).max(0.0);
+            self.compliance * above / self.units.clearance
+        };
+        EndOpening {
+            around: match bearing.inlet {
+                Inlet::Cyclic => [0.0; 2],
+                Inlet::MaxFilmLine { pressure } => [of(pressure); 2],
+            },
+            axial: of(bearing.ambient_pressure),
+        }
+    }
+
+    /// Keeps the gap of a soft shell open where the rigid shapes overlap: it has given way at least as far.
+    pub(crate) fn give_way(&mut self) {
+        const LEAST: f64 = 2e-3;
+        let heights = self.gap.mean.iter();
+        for (displacement, height) in self.expansion.displacement.iter_mut().zip(heights) {
+            displacement[0] = displacement[0].max(LEAST - height);
         }
     }
 
@@ -248,7 +356,7 @@ impl FilmState {
         closure.admit_set(&self.operator, &mut self.set);
         self.lines.prepare(&self.operator, &self.fed_by);
         self.lines.fill(&self.fed_by, conserves, &mut self.set);
-        closure.assemble(&self.operator, &self.set, &mut self.matrix, &mut self.rhs);
+        self.assemble(closure);
         if !self.factor.factor(&self.matrix) {
             return false;
         }
@@ -262,7 +370,6 @@ impl FilmState {
         if self.lines.has_unknowns() && !closure.cuts_pressures() {
             self.refine_lines(closure);
         }
-        self.stiffen();
         self.solution.iter().all(|x| x.is_finite())
     }
 
@@ -293,9 +400,15 @@ impl FilmState {
             &mut self.pressure,
             &mut self.film_fraction,
         );
-        self.flow_scale =
-            self.operator
-                .balance(&self.pressure, &self.film_fraction, &mut self.excess);
+        self.expand(closure);
+        let held = if self.expansion.density.is_empty() {
+            &self.film_fraction
+        } else {
+            &self.expansion.content
+        };
+        self.flow_scale = self
+            .operator
+            .balance(&self.pressure, held, &mut self.excess);
     }
 
     /// Flow into the film per feed, 1/s.
@@ -319,8 +432,32 @@ impl FilmState {
             return false;
         }
         self.lines.fill(&self.fed_by, conserves, set);
-        closure.assemble(operator, set, &mut self.matrix, &mut self.rhs);
+        self.assemble(closure);
         true
+    }
+
+    /// The equations of the present set.
+    fn assemble(&mut self, closure: &dyn CavitationModel) {
+        closure.assemble(&self.operator, &self.set, &mut self.matrix, &mut self.rhs);
+        let film = FilmEquations {
+            operator: &self.operator,
+            set: &self.set,
+            gap: &self.gap,
+            passage: self.passage.as_ref(),
+            held_per_height: &self.held_per_height,
+            conserves_mass: closure.conserves_mass(),
+        };
+        self.expansion
+            .add_to(&film, &mut self.matrix, &mut self.rhs);
+    }
+
+    /// Content per cell over that of a full film without pressure: film fraction times density.
+    pub(crate) fn held(&self) -> &[f64] {
+        if self.expansion.density.is_empty() {
+            &self.film_fraction
+        } else {
+            &self.expansion.content
+        }
     }
 
     /// Iterative refinement where elimination left more than round-off of the flows.
@@ -413,6 +550,10 @@ impl FilmState {
         let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
         let thickness = |k: usize| nominal[k] * units.clearance;
         extent.unfold(m, thickness, &mut fields.film_thickness);
+        if let Some(temperature) = &self.temperature {
+            fields.temperature.resize(fields.pressure.len(), 0.0);
+            extent.unfold(m, |k| temperature[k], &mut fields.temperature);
+        }
     }
 
     pub(crate) fn complementarity_violation(&self) -> f64 {
@@ -453,7 +594,12 @@ impl FilmState {
     pub(crate) fn keep_content(&mut self) {
         self.content.clear();
         let gaps = self.gap.mean.iter().zip(&self.gap.rate);
-        let content = self.film_fraction.iter().zip(gaps);
+        let held = if self.expansion.density.is_empty() {
+            &self.film_fraction
+        } else {
+            &self.expansion.content
+        };
+        let content = held.iter().zip(gaps);
         let after = self.after;
         self.content
             .extend(content.map(|(theta, (mean, rate))| theta * (mean + after * rate)));

@@ -39,12 +39,13 @@ type Weights = [f64; 7];
 ///
 /// | factor | fit holds from H | below |
 /// |---|---|---|
-/// | `pressure_around`, `pressure_along` | 1 (g = 1/9, 1/6), 0.75 (1/3), 0.5 | to 0 exponentially (g <= 1); rises to a limit (g > 1) |
-/// | `conductance_around`, `conductance_along` | the same | to 0 exponentially, positive |
+/// | `pressure_around`, `pressure_along` | 1 (g = 1/9, 1/6), 0.75 (1/3), 0.5 | falls to 1 % of its value there (g <= 1); rises to a limit (g > 1) |
+/// | `conductance_around`, `conductance_along` | the same | falls to 1 % of its value there |
 /// | `shear_flow`, `shear`, `shear_over_gap`, `shear_difference` | 0.5 | to 0 exponentially |
 /// | `shear_by_pressure` | 1 (g <= 1/3), 0.75 (1), 0.5 | to 0 exponentially |
 ///
-/// `shear_flow` is blended between its two formulas for H from 4.75 to 5.25; `shear_difference`, which the
+/// The 1 % is no physics: it lets oil that is dragged into contact leave, so that its pressure stays
+/// bounded at any overlap. `shear_flow` is blended between its two formulas for H from 4.75 to 5.25; `shear_difference`, which the
 /// source cuts off at H = 7, fades out from 6 on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlowFactors {

@@ -6,6 +6,7 @@
 //! and tables are settled at once.
 
 use crate::JournalState;
+use crate::energy::{EnergyBalance, Surroundings};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
@@ -83,6 +84,17 @@ pub trait FilmForce {
         None
     }
 
+    /// Counts the film as last linearised for a time (s) in the account of its heat. Nothing for models
+    /// without a field of temperature.
+    fn account_heat(&mut self, _duration: f64) {}
+
+    /// Moves the temperatures of the film by a share (0 to 1) towards those that the account of its heat
+    /// leads to, and begins a new account. `None` for models without a field of temperature, and where
+    /// heat has no way out.
+    fn warm(&mut self, _surroundings: &Surroundings<'_>, _share: f64) -> Option<Warmed> {
+        None
+    }
+
     /// The last implicit step becomes history: the next one starts from its film content.
     fn accept_step(&mut self) {}
 
@@ -122,6 +134,21 @@ fn settled<F: FilmForce + ?Sized>(
         seen.outcome = Outcome::NotConverged;
     }
     Ok((seen, updates))
+}
+
+/// What [`FilmForce::warm`] did.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Warmed {
+    /// Largest difference of a cell to what the account leads to, K.
+    pub change: f64,
+    /// Highest temperature of the film, K.
+    pub hottest: f64,
+    /// Mean over the film, K.
+    pub mean: f64,
+    /// Mean by flow of the oil that leaves at the ends, K.
+    pub outlet: f64,
+    /// Where the heat goes.
+    pub balance: EnergyBalance,
 }
 
 /// What a film model can do.
@@ -342,6 +369,8 @@ pub struct FilmField<'a> {
     pub film_fraction: &'a [f64],
     /// Film thickness, m.
     pub film_thickness: &'a [f64],
+    /// Temperature, K, where it is a field; else empty.
+    pub temperature: &'a [f64],
 }
 
 /// The film content of the past, opaque to callers.

@@ -8,8 +8,8 @@
 //!
 //! Integration by parts gives `F'' = -u F' + n F`, and for `G = F exp(u^2/2)`, which falls
 //! algebraically, `G'' = u G' + (n + 1) G`. The compiler steps G from its asymptotic series at u = 36
-//! down to 0 and F on to -8, in which direction the wanted solution is the dominant one, by Taylor
-//! series of the differential equation, and keeps the series about the middle of every 16th. Value
+//! down to 8 and F from there to -8, in which direction the wanted solution is the dominant one, by
+//! Taylor series of the differential equation, and keeps the series about the middle of each cell. Value
 //! and slope are those of one polynomial per cell; cells meet to round-off. Beyond -8 follows
 //! `F_n(-v) = sum binom(n, 2k) (2k-1)!! v^(n-2k)`, short of it by exp(-v^2/2).
 //! Above 36, F is below 1e-283 and returned as zero.
@@ -19,15 +19,21 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI};
 
 /// 1/sqrt(2 pi).
-pub(crate) const FRAC_1_SQRT_TAU: f64 = 0.5 * FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
-/// Cells per unit of u.
-const PER_UNIT: usize = 16;
+const FRAC_1_SQRT_TAU: f64 = 0.5 * FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
 /// Where the asymptotic series starts the march: its square root is exact.
-const TOP: usize = 36;
-/// Where the other series takes over, below zero.
-const BOTTOM: usize = 8;
-/// Coefficients kept per cell: the first left out contributes 1e-16 to F and 2e-14 to its slope.
-const KEPT: usize = 9;
+const TOP: f64 = 36.0;
+/// F itself is kept below, G above, and F is expanded below its negative.
+const NEAR: f64 = 8.0;
+/// exp(-NEAR^2/2).
+const WEIGHT_AT_NEAR: f64 = 1.266_416_554_909_417_6e-14;
+/// Cells of F per unit of u, and cells.
+const PER_NEAR: f64 = 32.0;
+const NEAR_CELLS: usize = 512;
+/// Cells of G per unit of u, and cells.
+const PER_FAR: f64 = 16.0;
+const FAR_CELLS: usize = 448;
+/// Coefficients kept per cell: the first left out contributes below 1e-15 to F and 2e-14 to its slope.
+const KEPT: usize = 10;
 /// Coefficients used from cell to cell.
 const STEPPED: usize = 20;
 
@@ -35,10 +41,10 @@ const STEPPED: usize = 20;
 pub(crate) struct HeightIntegral {
     /// Twice the exponent n.
     twice_n: usize,
-    /// Of G, upwards from 0.
-    above: [[f64; KEPT]; TOP * PER_UNIT],
-    /// Of F, downwards from 0.
-    below: [[f64; KEPT]; BOTTOM * PER_UNIT],
+    /// Of F, upwards from -[`NEAR`].
+    near: [[f64; KEPT]; NEAR_CELLS],
+    /// Of G, upwards from [`NEAR`].
+    far: [[f64; KEPT]; FAR_CELLS],
 }
 
 /// n = 1: the mean of what overlaps.
@@ -52,54 +58,28 @@ impl HeightIntegral {
     /// Half of `twice_n` is n, `leading` is Gamma(n + 1)/sqrt(2 pi).
     const fn new(twice_n: usize, leading: f64) -> Self {
         let n = 0.5 * twice_n as f64;
-        let half = 0.5 / PER_UNIT as f64;
-        let mut above = [[0.0; KEPT]; TOP * PER_UNIT];
-        let mut below = [[0.0; KEPT]; BOTTOM * PER_UNIT];
-        let mut at = TOP as f64;
-        let (mut value, mut slope) = far_above(twice_n, leading);
-        let mut i = TOP * PER_UNIT;
-        while i > 0 {
-            i -= 1;
-            let down = taylor(at, value, slope, 1.0, n + 1.0);
-            (value, slope) = sum(&down, -half);
-            at = (i as f64 + 0.5) * 2.0 * half;
-            let middle = taylor(at, value, slope, 1.0, n + 1.0);
-            above[i] = kept(&middle);
-            (value, slope) = sum(&middle, -half);
-            at = i as f64 * 2.0 * half;
-        }
-        // at u = 0 both functions and their slopes agree
-        while i < BOTTOM * PER_UNIT {
-            let down = taylor(at, value, slope, -1.0, n);
-            (value, slope) = sum(&down, -half);
-            at = -(i as f64 + 0.5) * 2.0 * half;
-            let middle = taylor(at, value, slope, -1.0, n);
-            below[i] = kept(&middle);
-            (value, slope) = sum(&middle, -half);
-            i += 1;
-            at = -(i as f64) * 2.0 * half;
-        }
-        Self {
-            twice_n,
-            above,
-            below,
-        }
+        let mut far = [[0.0; KEPT]; FAR_CELLS];
+        let mut near = [[0.0; KEPT]; NEAR_CELLS];
+        let start = far_above(twice_n, leading);
+        let (g, g_slope) = march(&mut far, TOP, PER_FAR, start, 1.0, n + 1.0);
+        let start = (WEIGHT_AT_NEAR * g, WEIGHT_AT_NEAR * (g_slope - NEAR * g));
+        march(&mut near, NEAR, PER_NEAR, start, -1.0, n);
+        Self { twice_n, near, far }
     }
 
     /// F_n(u) and its derivative -n F_(n-1)(u). Not a number where u is none.
     #[inline]
     pub(crate) fn at(&self, u: f64) -> (f64, f64) {
-        const PER: f64 = PER_UNIT as f64;
-        if u >= TOP as f64 {
+        if u.abs() < NEAR {
+            let (i, distance) = place::<NEAR_CELLS>(u + NEAR, PER_NEAR);
+            polynomial(&self.near[i], distance)
+        } else if u >= TOP {
             (0.0, 0.0)
-        } else if u >= 0.0 {
-            let i = (u * PER) as usize;
-            let (g, slope) = polynomial(&self.above[i], u - (i as f64 + 0.5) / PER);
+        } else if u > 0.0 {
+            let (i, distance) = place::<FAR_CELLS>(u - NEAR, PER_FAR);
+            let (g, slope) = polynomial(&self.far[i], distance);
             let weight = (-0.5 * u * u).exp();
             (weight * g, weight * (slope - u * g))
-        } else if u > -(BOTTOM as f64) {
-            let i = (-u * PER) as usize;
-            polynomial(&self.below[i], u + (i as f64 + 0.5) / PER)
         } else {
             self.far_below(-u)
         }
@@ -126,9 +106,36 @@ impl HeightIntegral {
     }
 }
 
+/// Fills cells downwards from their upper end `top` with the solution of `f'' = sign u f' + factor f`
+/// that starts there with value and slope; returns both at the lower end.
+const fn march<const CELLS: usize>(
+    cells: &mut [[f64; KEPT]; CELLS],
+    top: f64,
+    per_unit: f64,
+    start: (f64, f64),
+    sign: f64,
+    factor: f64,
+) -> (f64, f64) {
+    let half = 0.5 / per_unit;
+    let mut reading = start;
+    let mut i = CELLS;
+    while i > 0 {
+        let above = top - (CELLS - i) as f64 / per_unit;
+        i -= 1;
+        reading = sum(&taylor(above, reading, sign, factor), -half);
+        let middle = taylor(above - half, reading, sign, factor);
+        let mut k = 0;
+        while k < KEPT {
+            cells[i][k] = middle[k];
+            k += 1;
+        }
+        reading = sum(&middle, -half);
+    }
+    reading
+}
+
 /// G and its slope at [`TOP`] by the asymptotic series.
 const fn far_above(twice_n: usize, leading: f64) -> (f64, f64) {
-    let u = TOP as f64;
     let n = 0.5 * twice_n as f64;
     let mut term = leading;
     let mut i = 0;
@@ -141,18 +148,17 @@ const fn far_above(twice_n: usize, leading: f64) -> (f64, f64) {
     while k < 10.0 {
         let exponent = n + 1.0 + 2.0 * k;
         value += term;
-        slope -= exponent * term / u;
+        slope -= exponent * term / TOP;
         k += 1.0;
-        term *= -exponent * (exponent + 1.0) / (2.0 * k * u * u);
+        term *= -exponent * (exponent + 1.0) / (2.0 * k * TOP * TOP);
     }
     (value, slope)
 }
 
 /// Taylor coefficients at `at` of the solution of `f'' = sign u f' + factor f`.
-const fn taylor(at: f64, value: f64, slope: f64, sign: f64, factor: f64) -> [f64; STEPPED] {
+const fn taylor(at: f64, reading: (f64, f64), sign: f64, factor: f64) -> [f64; STEPPED] {
     let mut a = [0.0; STEPPED];
-    a[0] = value;
-    a[1] = slope;
+    (a[0], a[1]) = reading;
     let mut k = 0;
     while k + 2 < STEPPED {
         let order = k as f64;
@@ -175,27 +181,31 @@ const fn sum(a: &[f64; STEPPED], distance: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// The coefficients that a cell keeps.
-const fn kept(a: &[f64; STEPPED]) -> [f64; KEPT] {
-    let mut kept = [0.0; KEPT];
-    let mut k = 0;
-    while k < KEPT {
-        kept[k] = a[k];
-        k += 1;
-    }
-    kept
+/// The cell at a distance from the lower end, and how far its middle is.
+#[inline]
+fn place<const CELLS: usize>(from_end: f64, per_unit: f64) -> (usize, f64) {
+    // 32 bits convert both ways in one instruction; round-off at the upper end may reach beyond it
+    let i = ((from_end * per_unit) as i32).min(CELLS as i32 - 1);
+    (i as usize, from_end - (f64::from(i) + 0.5) / per_unit)
 }
 
-/// Value and slope of a cell's polynomial.
+/// Value and slope of a cell's polynomial: even and odd powers side by side, which halves what waits
+/// for each other.
 #[inline]
 fn polynomial(a: &[f64; KEPT], distance: f64) -> (f64, f64) {
-    let mut value = a[KEPT - 1];
-    let mut slope = 0.0;
-    for c in a[..KEPT - 1].iter().rev() {
-        slope = slope * distance + value;
-        value = value * distance + c;
+    let square = distance * distance;
+    let (mut even, mut odd) = (a[KEPT - 2], a[KEPT - 1]);
+    let (mut by_even, mut by_odd) = (0.0, 0.0);
+    for pair in a[..KEPT - 2].chunks_exact(2).rev() {
+        by_even = by_even * square + even;
+        by_odd = by_odd * square + odd;
+        even = even * square + pair[0];
+        odd = odd * square + pair[1];
     }
-    (value, slope)
+    (
+        even + distance * odd,
+        odd + 2.0 * distance * (by_even + distance * by_odd),
+    )
 }
 
 #[cfg(test)]
@@ -253,8 +263,8 @@ mod tests {
     #[test]
     fn cells_and_ranges_meet_to_round_off() {
         for (integral, n) in ALL {
-            for i in -(9 * PER_UNIT as i32)..(TOP * PER_UNIT) as i32 {
-                let edge = f64::from(i) / PER_UNIT as f64;
+            for i in -(9 * 32)..36 * 32 {
+                let edge = f64::from(i) / 32.0;
                 // one step of round-off aside; exp(-u^2/2) itself varies by u times that
                 let (before, behind) = (integral.at(edge.next_down()), integral.at(edge));
                 let allowed = 1e-12;

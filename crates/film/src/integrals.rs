@@ -14,6 +14,7 @@
 
 use crate::bearing::Bearing;
 use crate::cavitation::FilmSet;
+use crate::elastic::Elasticity;
 use crate::force::{Extreme, FilmSummary, Reaction, Tangent};
 use crate::gap::{AngleTables, Gap, Waviness};
 use crate::grid::Grid;
@@ -90,6 +91,8 @@ pub struct SolvedFilm<'a> {
     pub contact: &'a [[f64; 2]],
     /// Film fraction per cell.
     pub film_fraction: &'a [f64],
+    /// Content per cell over that of a full film without pressure: film fraction times density.
+    pub held: &'a [f64],
     /// Entering beyond leaving per cell, 1/s.
     pub excess: &'a [f64],
     /// Units.
@@ -182,7 +185,7 @@ impl SolvedFilm<'_> {
             summary.side_flow[1] += self.operator.flow_axial(i, m, self.pressure);
             for j in 0..m {
                 let k = i * m + j;
-                summary.storage_rate += self.operator.stored_flow(k, self.film_fraction[k]);
+                summary.storage_rate += self.operator.stored_flow(k, self.held[k]);
                 if self.set.cells[k] == Cell::Fed {
                     summary.feed_flow -= self.excess[k];
                 } else {
@@ -210,13 +213,31 @@ impl SolvedFilm<'_> {
         summary
     }
 
+    /// Of the rigid shapes where they are; of the cells where the shell gives way.
     fn minimum_film(&self, state: &JournalState) -> Extreme {
+        if self.bearing.elasticity != Elasticity::Rigid {
+            return self.narrowest_cell();
+        }
         let least = self.search.narrowest(self.bearing, state);
         Extreme {
             value: least.gap,
             angle: least.angle,
             axial: least.axial,
         }
+    }
+
+    fn narrowest_cell(&self) -> Extreme {
+        let heights = self
+            .passage
+            .map_or(&self.gap.mean, |passage| &passage.height);
+        let m = self.grid.n_axial();
+        let cells = 0..heights.len();
+        let least = cells.min_by(|&a, &b| heights[a].total_cmp(&heights[b]));
+        least.map_or_else(Extreme::default, |k| Extreme {
+            value: heights[k] * self.units.clearance,
+            angle: self.grid.around[k / m],
+            axial: self.grid.axial[k % m] * self.units.radius,
+        })
     }
 
     /// `int p d(journal profile)/d(angle) dA`, N m: what the pressure turns a journal by that is not
@@ -242,11 +263,8 @@ impl SolvedFilm<'_> {
         }
         (0..self.grid.n_axial())
             .map(|j| {
-                self.operator
-                    .flow_around(0, j, self.pressure, self.film_fraction)
-                    - self
-                        .operator
-                        .flow_around(n, j, self.pressure, self.film_fraction)
+                self.operator.flow_around(0, j, self.pressure, self.held)
+                    - self.operator.flow_around(n, j, self.pressure, self.held)
             })
             .sum()
     }
@@ -425,11 +443,9 @@ impl SolvedFilm<'_> {
                 let face = i * m + j;
                 let [before, behind] = [before, behind].map(|i| i.map(|i| i * m + j));
                 let (p_before, theta_before) =
-                    self.operator
-                        .beside(before, 0, self.pressure, self.film_fraction);
+                    self.operator.beside(before, 0, self.pressure, self.held);
                 let (p_behind, theta_behind) =
-                    self.operator
-                        .beside(behind, 1, self.pressure, self.film_fraction);
+                    self.operator.beside(behind, 1, self.pressure, self.held);
                 let transport = self.operator.transport[face];
                 let upstream = if transport > 0.0 {
                     theta_before
@@ -517,7 +533,7 @@ impl SolvedFilm<'_> {
                         let [slope, curvature] = passage.holding_slopes[k];
                         per_time * slope + per_rate * passage.rate[k] * curvature
                     });
-                    let by_height = held * self.film_fraction[k] * self.grid.area(i, j);
+                    let by_height = held * self.held[k] * self.grid.area(i, j);
                     sums.add(adjoints[k], [0.0; 4], by_height, self.grid.axial[j]);
                 }
             }

@@ -27,12 +27,14 @@ pub mod frame;
 pub mod friction;
 pub mod gap;
 pub mod grid;
+mod heat;
 mod height_integrals;
 pub mod integrals;
 pub mod journal_state;
 pub mod linear;
 pub mod mirror;
 pub mod narrowest;
+pub mod nonlinear;
 pub mod passage;
 pub mod peak;
 pub mod reduced_pressure;
@@ -52,11 +54,12 @@ pub use bearing::{
 pub use closed_form::{LongBearingFilm, MobilityFilm, ShortBearingFilm};
 pub use contact::{ContactLaw, ContactTable, GreenwoodTripp};
 pub use elastic::Elasticity;
+pub use energy::{EnergyBalance, Surroundings};
 pub use finish::{Finish, RoughFinish};
 pub use flow_factors::FlowFactors;
 pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
-    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent,
+    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent, Warmed,
 };
 pub use grid::Grid;
 pub use journal_state::JournalState;

@@ -5,6 +5,7 @@
 //! The half between one end and the mid-plane is solved; stations with half the cells cost an eighth.
 
 use crate::bearing::Bearing;
+use crate::energy::EnergyBalance;
 use crate::force::{FilmSummary, Reaction, Tangent};
 use crate::grid::Grid;
 
@@ -124,6 +125,19 @@ impl Extent {
             contact_load: 2.0 * solved.contact_load,
             boundary_power: 2.0 * solved.boundary_power,
             ..solved
+        }
+    }
+
+    /// Energy of the whole bearing.
+    #[must_use]
+    pub fn energy(self, solved: EnergyBalance) -> EnergyBalance {
+        let images = self.images();
+        EnergyBalance {
+            generated: images * solved.generated,
+            carried_out: images * solved.carried_out,
+            returned: images * solved.returned,
+            conducted: images * solved.conducted,
+            unconserved: images * solved.unconserved,
         }
     }
 

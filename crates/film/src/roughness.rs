@@ -15,7 +15,7 @@
 //! References: N. Patir, H. S. Cheng, J. Lubr. Technol. 100 (1978) 12; C. Wu, L. Zheng, J. Tribol. 111
 //! (1989) 188 (contact factor).
 
-use crate::height_integrals::{F_1, FRAC_1_SQRT_TAU};
+use crate::height_integrals::F_1;
 use serde::{Deserialize, Serialize};
 
 /// Largest rms roughness that is taken for one, m: beyond it a unit is wrong.
@@ -175,7 +175,8 @@ pub fn mean_gap(gap: f64, sigma: f64) -> MeanGap {
     MeanGap {
         value,
         contact_factor,
-        contact_factor_by_gap: FRAC_1_SQRT_TAU * (-0.5 * h * h).exp() / sigma,
+        // the density exp(-H^2/2)/sqrt(2 pi) by parts: F_1'' = F_1 - H F_1'
+        contact_factor_by_gap: (overlap - h.abs() * by_h) / sigma,
     }
 }
 
@@ -230,7 +231,8 @@ mod tests {
         for i in -40..=40 {
             let h = f64::from(i) * 0.1;
             let half = 0.5 * (1.0 + erf(h * std::f64::consts::FRAC_1_SQRT_2));
-            let want = h * half + FRAC_1_SQRT_TAU * (-0.5 * h * h).exp();
+            let density = (-0.5 * h * h).exp() / std::f64::consts::TAU.sqrt();
+            let want = h * half + density;
             let got = mean_gap(h * SIGMA, SIGMA);
             assert!(
                 (got.value / SIGMA - want).abs() < 1e-12,
@@ -240,6 +242,8 @@ mod tests {
                 (got.contact_factor - half).abs() < 1e-12,
                 "H {h}: {got:?}, {half}"
             );
+            let by_h = got.contact_factor_by_gap * SIGMA;
+            assert!((by_h - density).abs() < 1e-12, "H {h}: {by_h}, {density}");
         }
     }
 

@@ -11,11 +11,12 @@
 
 use crate::bearing::{Bearing, Cavitation, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet, model_of};
+use crate::energy::{HeatAccount, Surroundings};
 use crate::film_state::FilmState;
 use crate::finish::Finish;
 use crate::force::{
     Capabilities, Conditions, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary,
-    Linearised, Outcome, Step, Tangent,
+    Linearised, Outcome, Step, Tangent, Warmed,
 };
 use crate::frame::Frame;
 use crate::gap::AngleTables;
@@ -239,7 +240,8 @@ impl FilmSolver {
         }
         let least = self.search.narrowest(&self.bearing, state);
         // Rough surfaces leave a mean gap wherever they are, and asperities that carry push back.
-        if least.gap > 0.0 || self.bearing.finish.has_contact() {
+        let is_soft = self.bearing.elasticity.compliance() > 0.0;
+        if least.gap > 0.0 || self.bearing.finish.has_contact() || is_soft {
             return Ok(());
         }
         Err(FilmError::Contact {
@@ -275,6 +277,38 @@ impl FilmSolver {
         Ok(())
     }
 
+    /// A soft shell whose rigid shape the journal overlaps: its displacement is followed from where the
+    /// shapes leave a gap, step by step.
+    fn walk_in(
+        &mut self,
+        state: &JournalState,
+        conditions: &Conditions<'_>,
+    ) -> Result<(), FilmError> {
+        const STEPS: usize = 10;
+        const ROOM: f64 = 0.15;
+        let is_soft = self.bearing.elasticity.compliance() > 0.0;
+        let gap = |state: &JournalState| self.search.narrowest(&self.bearing, state).gap;
+        let open = ROOM * self.bearing.radial_clearance;
+        if !is_soft || gap(state) >= open {
+            return Ok(());
+        }
+        let scaled = |share: f64| JournalState {
+            position: state.position.map(|x| share * x),
+            tilt: state.tilt.map(|turn| share * turn),
+            ..*state
+        };
+        let mut share = 1.0;
+        while share > 0.1 && gap(&scaled(share)) < open {
+            share *= 0.95;
+        }
+        let first = share;
+        for step in 0..STEPS {
+            share = first + (1.0 - first) * step as f64 / STEPS as f64;
+            self.react(&scaled(share), Step::Steady, conditions)?;
+        }
+        Ok(())
+    }
+
     /// Before an update: what is refused, a film that is not there, the set of a cold film; stages 1 to
     /// 3 at the state.
     fn enter(
@@ -289,6 +323,7 @@ impl FilmSolver {
         }
         if !self.film.is_warm {
             self.start_cold(state, conditions)?;
+            self.walk_in(state, conditions)?;
         }
         let turned = self.frame.turn(state);
         self.prepare(&self.frame.to_grid(state, turned), step, conditions);
@@ -317,7 +352,7 @@ impl FilmSolver {
             .write_fields(&self.bearing, &self.grid, self.extent, turned);
         self.film.keep_solved_cells();
         let moved = self.film.advance_set(self.closure.as_ref());
-        let settled = moved == 0;
+        let settled = moved == 0 && !self.film.is_bending;
         if !settled && wanted == Wanted::Tangent {
             self.film.unsettled = self.lacking(moved);
         }
@@ -350,7 +385,7 @@ impl FilmSolver {
             excess: &film.excess,
             adjoints: &film.adjoints,
         };
-        if change.count() != moved {
+        if change.count() != moved || film.is_bending {
             return None;
         }
         let solved = self.solved();
@@ -388,12 +423,17 @@ impl FilmSolver {
             .fill_gap(&self.grid, &position, &rate, &mut film.gap);
         self.surfaces.turn_to(&self.bearing, &self.grid, state);
         self.surfaces.add_to(&self.grid, state, &mut film.gap);
+        film.give_way();
+        let is_ring = self.bearing.inlet == Inlet::Cyclic;
+        let ends = film.end_opening(&self.bearing);
+        film.expansion
+            .open(&mut film.gap, self.grid.n_axial(), ends, is_ring);
         if let Some(passage) = &mut film.passage {
             let around = PassageState {
                 grid: &self.grid,
                 oil: &self.lubricant,
                 temperature,
-                field: None,
+                field: film.temperature.as_deref(),
                 clearance: film.units.clearance,
                 radius: film.units.radius,
                 mean_speed: state.mean_speed(),
@@ -419,6 +459,14 @@ impl FilmSolver {
             .update(&self.grid, &film.gap, state.mean_speed(), storage);
         if let Some(passage) = &film.passage {
             passage.amend(&mut film.operator, &self.grid);
+        }
+        let per_time = match storage {
+            Storage::Step { duration, .. } => 1.0 / duration,
+            Storage::Rate => 0.0,
+        };
+        let m = self.grid.n_axial();
+        for (k, held) in film.held_per_height.iter_mut().enumerate() {
+            *held = per_time * self.grid.area(k / m, k % m);
         }
         film.operator
             .hold_feeds_to_edges(&self.grid, &film.set.cells);
@@ -447,6 +495,7 @@ impl FilmSolver {
             passage: self.film.passage.as_ref(),
             contact: &self.film.contact,
             film_fraction: &self.film.film_fraction,
+            held: self.film.held(),
             excess: &self.film.excess,
             units: self.film.units,
         }
@@ -503,9 +552,14 @@ impl FilmForce for FilmSolver {
         let nominal = self.search.narrowest(&self.bearing, state).gap;
         match &self.bearing.finish {
             Finish::Rough(rough) if rough.contact.is_on() => {
-                softened(nominal, rough.roughness.composite())
+                let give = 2e7 * self.bearing.elasticity.compliance();
+                softened(nominal, rough.roughness.composite().max(give))
             }
-            _ => nominal,
+            _ => match self.bearing.elasticity.compliance() {
+                // What a soft shell gives way under a pressure that bearings have.
+                compliance if compliance > 0.0 => softened(nominal, 2e7 * compliance),
+                _ => nominal,
+            },
         }
     }
 
@@ -579,7 +633,59 @@ impl FilmForce for FilmSolver {
             pressure: &fields.pressure,
             film_fraction: &fields.film_fraction,
             film_thickness: &fields.film_thickness,
+            temperature: &fields.temperature,
         })
+    }
+
+    fn account_heat(&mut self, duration: f64) {
+        let periodic = self.bearing.inlet == Inlet::Cyclic;
+        let mut heat = std::mem::take(&mut self.film.heat);
+        let turned = self.frame.turn(&self.film.state);
+        let local = self.frame.to_grid(&self.film.state, turned);
+        heat.take(&self.solved(), &local);
+        let feeds = self.bearing.feeds.len() + usize::from(!periodic);
+        let radius = self.bearing.radius();
+        let account = self
+            .film
+            .account
+            .get_or_insert_with(|| HeatAccount::new(&self.grid, radius, periodic, feeds));
+        account.add(&heat.instant(&self.film.fed_by), duration);
+        self.film.heat = heat;
+    }
+
+    fn warm(&mut self, surroundings: &Surroundings<'_>, share: f64) -> Option<Warmed> {
+        let account = self.film.account.as_mut()?;
+        let found = account.temperature(surroundings)?;
+        account.clear();
+        if self.film.passage.is_none() {
+            self.film.passage = Passage::new(&self.grid, None, false, true);
+        }
+        let reference = surroundings.supply.first().copied();
+        let reference = reference.unwrap_or(surroundings.ambient);
+        let cells = self
+            .film
+            .temperature
+            .get_or_insert_with(|| vec![reference; found.cells.len()]);
+        let mut warmed = Warmed {
+            outlet: found.outlet,
+            balance: self.extent.energy(found.balance),
+            hottest: f64::NEG_INFINITY,
+            ..Warmed::default()
+        };
+        for (cell, led_to) in cells.iter_mut().zip(&found.cells) {
+            warmed.change = warmed.change.max((led_to - *cell).abs());
+            *cell += share * (led_to - *cell);
+            warmed.hottest = warmed.hottest.max(*cell);
+        }
+        let m = self.grid.n_axial();
+        let (mut sum, mut area) = (0.0, 0.0);
+        for (k, cell) in cells.iter().enumerate() {
+            sum += cell * self.grid.area(k / m, k % m);
+            area += self.grid.area(k / m, k % m);
+        }
+        warmed.mean = sum / area;
+        self.film.is_warm = true;
+        Some(warmed)
     }
 
     fn accept_step(&mut self) {
@@ -600,7 +706,7 @@ impl FilmForce for FilmSolver {
     }
 
     fn instant(&self) -> FilmHistory {
-        let content = self.film.film_fraction.iter().zip(&self.film.gap.mean);
+        let content = self.film.held().iter().zip(&self.film.gap.mean);
         FilmHistory {
             content: if self.closure.conserves_mass() {
                 content.map(|(theta, gap)| theta * gap).collect()

@@ -52,6 +52,10 @@ pub(super) const ROWS: [Row; 7] = [
 
 /// Where the fits of shear flow and of the stress difference begin.
 pub(super) const SHEAR_FROM: f64 = 0.5;
+/// Share of its value at the beginning of its range that a pressure flow keeps at any overlap. Oil that
+/// is dragged into contact has to leave: without it pressure there would grow beyond all bounds, as
+/// the mean gap closes more slowly than a fit that is continued to zero.
+pub(super) const LEAST_FLOW: f64 = 0.01;
 /// Where the two formulas of shear flow are blended.
 pub(super) const SHEAR_FLOW_SEAM: [f64; 2] = [4.75, 5.25];
 /// Where the stress difference fades out.
@@ -62,7 +66,7 @@ pub(super) fn pressure(k: usize, h: f64) -> Reading {
     let row = &ROWS[k];
     let from = row.pressure_from;
     if row.peklenik <= 1.0 {
-        return continued(h, from, |h| saturating(row.pressure, h));
+        return continued(h, from, LEAST_FLOW, |h| saturating(row.pressure, h));
     }
     if h >= from {
         return longitudinal(row.pressure, h);
@@ -76,7 +80,7 @@ pub(super) fn pressure(k: usize, h: f64) -> Reading {
 /// `phi_x H^3` of a row.
 pub(super) fn conductance(k: usize, h: f64) -> Reading {
     let row = &ROWS[k];
-    continued(h, row.pressure_from, |h| {
+    continued(h, row.pressure_from, LEAST_FLOW, |h| {
         let (value, slope) = if row.peklenik <= 1.0 {
             saturating(row.pressure, h)
         } else {
@@ -92,7 +96,7 @@ pub(super) fn shear_flow(k: usize, h: f64) -> Reading {
     let [from, to] = SHEAR_FLOW_SEAM;
     let near = |h| power_exponential(row.shear_flow, h);
     if h <= from {
-        return continued(h, SHEAR_FROM, near);
+        return continued(h, SHEAR_FROM, 0.0, near);
     }
     let value = row.shear_flow_far * (-0.25 * h).exp();
     let far = (value, -0.25 * value);
@@ -115,7 +119,7 @@ pub(super) fn shear_difference(k: usize, h: f64) -> Reading {
     }
     let fit = |h| power_exponential(ROWS[k].difference, h);
     if h <= from {
-        return continued(h, SHEAR_FROM, fit);
+        return continued(h, SHEAR_FROM, 0.0, fit);
     }
     let (gone, by_h) = step(h, from, to);
     let (value, slope) = fit(h);
@@ -125,7 +129,9 @@ pub(super) fn shear_difference(k: usize, h: f64) -> Reading {
 /// phi_fp of a row.
 pub(super) fn shear_by_pressure(k: usize, h: f64) -> Reading {
     let row = &ROWS[k];
-    continued(h, row.by_pressure_from, |h| saturating(row.by_pressure, h))
+    continued(h, row.by_pressure_from, 0.0, |h| {
+        saturating(row.by_pressure, h)
+    })
 }
 
 /// `1 - c exp(-r H)`.
@@ -150,15 +156,17 @@ fn power_exponential([a, b, c, d]: [f64; 4], h: f64) -> Reading {
     (value, value * (b / h - c + 2.0 * d * h))
 }
 
-/// A positive rising fit, continued below `from` as the exponential with its value and slope there.
-pub(super) fn continued(h: f64, from: f64, fit: impl Fn(f64) -> Reading) -> Reading {
+/// A positive rising fit, continued below `from` as the exponential with its value and slope there
+/// that falls to the share `least` of that value.
+pub(super) fn continued(h: f64, from: f64, least: f64, fit: impl Fn(f64) -> Reading) -> Reading {
     if h >= from {
         return fit(h);
     }
     let (value, slope) = fit(from);
-    let rate = slope / value;
-    let value = value * (rate * (h - from)).exp();
-    (value, rate * value)
+    let falls = (1.0 - least) * value;
+    let rate = slope / falls;
+    let left = (rate * (h - from)).exp();
+    (least * value + falls * left, slope * left)
 }
 
 /// From 0 to 1 without a bend at either end.

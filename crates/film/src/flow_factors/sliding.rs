@@ -26,7 +26,7 @@ const M: [f64; MOMENTS] = {
 
 /// phi_f, below its range continued towards zero.
 pub(super) fn phi_f(h: f64) -> Reading {
-    continued(h, SHEAR_FROM, |h| {
+    continued(h, SHEAR_FROM, 0.0, |h| {
         if h >= SERIES_FROM {
             return series(h);
         }
@@ -37,7 +37,7 @@ pub(super) fn phi_f(h: f64) -> Reading {
 
 /// phi_f/H, below its range continued towards zero.
 pub(super) fn phi_f_over_h(h: f64) -> Reading {
-    continued(h, SHEAR_FROM, |h| {
+    continued(h, SHEAR_FROM, 0.0, |h| {
         if h >= SERIES_FROM {
             let (value, slope) = series(h);
             return (value / h, (slope - value / h) / h);

@@ -221,6 +221,27 @@ fn deep_in_contact_factors_stay_bounded_and_monotone() {
     }
 }
 
+/// Oil that sliding drags in by the mean gap must get out by pressure: what a gradient of pressure has to be
+/// goes with the ratio of mean gap to conductance.
+#[test]
+fn contact_leaves_a_way_out_for_the_oil_that_is_dragged_in() {
+    for row in reference() {
+        let factors = rough_journal(row[0]);
+        let ratio = |h: f64| {
+            let gap = h * SIGMA;
+            let dragged = factors.mean_gap(gap).value / SIGMA;
+            dragged / (factors.conductance_around(gap).value / SIGMA.powi(3))
+        };
+        // the mean gap falls with the gap, the conductance to its least share
+        let bar = ratio(row[3]) / fits::LEAST_FLOW;
+        for i in -4000..300 {
+            let h = f64::from(i) * 0.01;
+            assert!(ratio(h) < bar, "g {}, H {h}: {}, {bar}", row[0], ratio(h));
+        }
+        assert!(ratio(-4.0) < ratio(row[3]), "g {}", row[0]);
+    }
+}
+
 /// Isotropic surfaces at H = 3: `phi_x = 1 - 0.9 exp(-1.68)`, and z = 1, where phi_f is 7/6 by hand.
 #[test]
 fn isotropic_surfaces_at_three_sigma() {
