@@ -3,9 +3,7 @@
 use super::Checker;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
-use sommerfeld_film::{
-    Bearing, Cavitation, Elasticity, Ends, FilmShear, Finish, Inlet, Shape,
-};
+use sommerfeld_film::{Bearing, Cavitation, Elasticity, Ends, FilmShear, Finish, Inlet, Shape};
 use std::ops::Range;
 
 /// Relative clearances outside this range are more often a slip of the unit than a bearing.

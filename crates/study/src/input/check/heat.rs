@@ -1,7 +1,7 @@
 //! Where the temperature of the film comes from.
 
-use super::grooves::mm;
 use super::Checker;
+use super::grooves::mm;
 use crate::input::heat::{HeatPlan, Wall};
 use crate::input::schema::Mode;
 use crate::input::values::{Value, not_built};
@@ -33,10 +33,12 @@ impl Checker<'_> {
             self.refuse_of_closed_form(HEAT, "has one temperature of the film")?;
         }
         let path = self.heat_path()?;
-        let expansion = match self.entry(EXPANSION) {
-            Some(_) => Some(self.expansion(bearing)?),
+        let expansion = match self.entry(EXPANSION).map(|entry| &entry.value) {
             None => None,
+            Some(Value::Table) => Some(self.expansion(bearing)?),
+            Some(_) => return None,
         };
+        self.check_warm_clearance(bearing, &path, expansion.as_ref())?;
         Some(match model.as_str() {
             "field" => HeatPlan::Field {
                 path,
@@ -94,13 +96,14 @@ impl Checker<'_> {
             self.mode.name()
         );
         let error = not_built(place, &what);
-        self.errors.push(if model == "field" && !self.mode.is_machine() {
-            error.allowing("given, balance")
-        } else {
-            error.allowing("given").hinting(
+        self.errors
+            .push(if model == "field" && !self.mode.is_machine() {
+                error.allowing("given, balance")
+            } else {
+                error.allowing("given").hinting(
                 "the loads-<name>.csv of a bearing can be run as a load-cycle study with a balance",
             )
-        });
+            });
         None
     }
 
@@ -183,6 +186,33 @@ impl Checker<'_> {
             housing_excess,
             shell,
         })
+    }
+
+    /// A bearing without clearance at the temperature of its supply does not run.
+    fn check_warm_clearance(
+        &mut self,
+        bearing: Option<&Bearing>,
+        path: &HeatPath,
+        expansion: Option<&Expansion>,
+    ) -> Option<()> {
+        let (Some(bearing), Some(expansion)) = (bearing, expansion) else {
+            return Some(());
+        };
+        let cold = bearing.radial_clearance;
+        let warm = expansion.clearance(bearing.radius(), cold, path.supply_temperature);
+        if warm > 0.0 {
+            return Some(());
+        }
+        let message = format!(
+            "the bearing has no clearance at the supply temperature: {:.1} um, from {:.1} um at the \
+             reference temperature",
+            2e6 * warm,
+            2e6 * cold
+        );
+        let error = self.section_error(EXPANSION, message);
+        self.errors
+            .push(error.hinting("the clearance of [bearing] is that at the reference temperature"));
+        None
     }
 
     fn pressed_shell(&mut self, bearing: Option<&Bearing>) -> Option<PressedShell> {

@@ -389,13 +389,9 @@ impl Checker<'_> {
     ) -> Option<()> {
         let path = heat.and_then(HeatPlan::path);
         let mut asked = vec![("oil.temperature", "film", temperature)];
-        asked.extend(path.map(|path| {
-            (
-                "heat.supply_temperature",
-                "supply",
-                path.supply_temperature,
-            )
-        }));
+        asked.extend(
+            path.map(|path| ("heat.supply_temperature", "supply", path.supply_temperature)),
+        );
         let mut range = oil.temperature_range();
         if path.is_some() {
             range = range.and(oil.heat_temperature_range());
@@ -461,7 +457,8 @@ impl Checker<'_> {
         }
         let range = oil.temperature_range();
         if !range.contains(GRADE_TEMPERATURE) || !range.contains(HTHS_TEMPERATURE) {
-            let message = "the laws of this oil do not reach 100 and 150 degC, where a grade is taken";
+            let message =
+                "the laws of this oil do not reach 100 and 150 degC, where a grade is taken";
             let error = self.error_at(GRADE, message);
             return Some(error.allowing(celsius(range)));
         }
@@ -498,7 +495,10 @@ impl Checker<'_> {
 
     /// Says that a film in closed form takes the oil as it is at ambient pressure and low shear.
     fn note_of_closed_form(&mut self, oil: &Lubricant) {
-        let Some(model) = self.film_model().filter(|model| !FilmModel::is_field(*model)) else {
+        let Some(model) = self
+            .film_model()
+            .filter(|model| !FilmModel::is_field(*model))
+        else {
             return;
         };
         let is_newtonian = matches!(oil.shear_thinning, ShearThinning::None)
