@@ -237,7 +237,7 @@ pub const KEYS: &[Key] = &[
         "Vogel: temperature offset for T in K; where data give 110 for T in degC, this is 110 - 273.15.", "\"-163.15 K\""),
     key("oil.viscosity.kv40", Quantity(Dimension::KinematicViscosity, KINEMATIC), Optional, PHYSICAL, "ASTM D341: kinematic viscosity at 40 degC.", "\"65 mm2/s\""),
     key("oil.viscosity.kv100", Quantity(Dimension::KinematicViscosity, KINEMATIC), Optional, PHYSICAL, "ASTM D341: kinematic viscosity at 100 degC.", "\"11 mm2/s\""),
-    key("oil.temperature", Quantity(Dimension::Temperature, Range::between(-100.0, 500.0, "degC")), Default("100 degC"), PHYSICAL, "Temperature of the film where heat.model is given; with a heat balance the film finds its own, and this is where tables that need one temperature stand.", "\"60 degC\" to \"130 degC\""),
+    key("oil.temperature", Quantity(Dimension::Temperature, Range::between(-100.0, 500.0, "degC")), Default("100 degC"), PHYSICAL, "Temperature of the film. With heat.model = \"balance\" the film finds its own, and this one is not used.", "\"60 degC\" to \"130 degC\""),
     key("oil.density", QuantityOrLaw(Dimension::Density, DENSITY), Default("850 kg/m3"), PHYSICAL,
         "Density, or { value, temperature, expansion, pressure }: how it follows temperature and pressure.", "\"850 kg/m3\""),
     key("oil.density.value", Quantity(Dimension::Density, DENSITY), Required, PHYSICAL, "Density at ambient pressure; with expansion, at oil.density.temperature.", "\"850 kg/m3\""),

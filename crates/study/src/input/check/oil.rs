@@ -40,6 +40,9 @@ impl Checker<'_> {
         heat: &Option<HeatPlan>,
     ) -> Option<Lubricant> {
         self.entry("oil").filter(|e| e.value == Value::Table)?;
+        // A film that finds its temperature begins at that of its supply.
+        let path = heat.as_ref().and_then(HeatPlan::path);
+        let temperature = path.map_or(temperature, |path| path.supply_temperature);
         let base = self.named_oil()?;
         let density = self.density();
         let viscosity = match &base {
@@ -69,7 +72,7 @@ impl Checker<'_> {
         }
         self.check_viscosity(&oil, temperature)?;
         self.shear_thinning(&mut oil)?;
-        self.check_temperatures(&oil, base.as_ref(), temperature, heat.as_ref())?;
+        self.check_temperature(&oil, base.as_ref(), temperature, path.is_some())?;
         self.check_grade(&oil)?;
         self.note_of_closed_form(&oil);
         Some(oil)
@@ -379,47 +382,41 @@ impl Checker<'_> {
         None
     }
 
-    /// The temperatures that the study names lie where the laws of the oil hold.
-    fn check_temperatures(
+    /// The temperature that the study names lies where the laws of the oil hold.
+    fn check_temperature(
         &mut self,
         oil: &Lubricant,
         base: Option<&NamedOil>,
         temperature: f64,
-        heat: Option<&HeatPlan>,
+        is_supply: bool,
     ) -> Option<()> {
-        let path = heat.and_then(HeatPlan::path);
-        let mut asked = vec![("oil.temperature", "film", temperature)];
-        asked.extend(
-            path.map(|path| ("heat.supply_temperature", "supply", path.supply_temperature)),
-        );
-        let mut range = oil.temperature_range();
-        if path.is_some() {
-            range = range.and(oil.heat_temperature_range());
+        let (key, what, range) = if is_supply {
+            let heat = oil.heat_temperature_range();
+            let range = oil.temperature_range().and(heat);
+            ("heat.supply_temperature", "supply", range)
+        } else {
+            ("oil.temperature", "film", oil.temperature_range())
+        };
+        let place = |checker: &Self, message: String| match checker.entry(key) {
+            Some(_) => checker.error_at(key, message),
+            None => checker.section_error("oil", message).of_key(key),
+        };
+        let degrees = temperature - 273.15;
+        if !range.contains(temperature) {
+            let message = format!(
+                "the {what} temperature of {degrees:.1} degC is outside the range of the oil's laws"
+            );
+            let error = place(self, message).allowing(celsius(range));
+            self.errors.push(error);
+            return None;
         }
-        for (key, what, value) in asked {
-            let place = |checker: &Self, message: String| match checker.entry(key) {
-                Some(_) => checker.error_at(key, message),
-                None => checker.section_error("oil", message).of_key(key),
-            };
-            let degrees = value - 273.15;
-            if !range.contains(value) {
-                let message = format!(
-                    "the {what} temperature of {degrees:.1} degC is outside the range of the oil's \
-                     laws"
-                );
-                let error = place(self, message).allowing(celsius(range));
-                self.errors.push(error);
-                return None;
-            }
-            let data = base.filter(|base| !base.temperatures.contains(value));
-            if let Some(base) = data {
-                let message = format!(
-                    "the {what} temperature of {degrees:.1} degC is outside the data of the oil {}",
-                    base.name
-                );
-                let note = place(self, message).allowing(celsius(base.temperatures));
-                self.warnings.push(note);
-            }
+        if let Some(base) = base.filter(|base| !base.temperatures.contains(temperature)) {
+            let message = format!(
+                "the {what} temperature of {degrees:.1} degC is outside the data of the oil {}",
+                base.name
+            );
+            let note = place(self, message).allowing(celsius(base.temperatures));
+            self.warnings.push(note);
         }
         Some(())
     }
@@ -469,7 +466,10 @@ impl Checker<'_> {
             }
             | GradeError::Above {
                 what, value, unit, ..
-            } => format!("the oil is no SAE {grade}: {what} is {value:.4} {unit}"),
+            } => {
+                let value = (1e4 * value).round() / 1e4;
+                format!("the oil is no SAE {grade}: {what} is {value} {unit}")
+            }
             GradeError::Unknown { .. } => error.to_string(),
         };
         let window = grade.window();
