@@ -1,6 +1,7 @@
 //! A checked study: everything a run needs, in SI, with nothing left to doubt.
 
 use super::error::InputError;
+use super::heat::HeatPlan;
 use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
 use sommerfeld_bearing::LoadCycle;
@@ -102,8 +103,10 @@ pub struct BearingCase {
     pub bearing: Bearing,
     /// The oil.
     pub lubricant: Lubricant,
-    /// Temperature of the film, K.
+    /// Temperature of the film, K; its first guess where heat is balanced.
     pub temperature: f64,
+    /// Where the temperature of the film comes from.
+    pub heat: HeatPlan,
     /// What the bearing has to do.
     pub duty: Duty,
 }

@@ -57,6 +57,27 @@ pub struct Header {
     pub grid: Option<[usize; 2]>,
     /// Limits of the study, held against the results by [`Results::check_limits`].
     pub limits: Vec<LimitCheck>,
+    /// The temperature that the heat of the film led to, where it was not given.
+    pub heat: Option<HeatResults>,
+}
+
+/// The balance of the heat that a film makes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HeatResults {
+    /// Temperature at which the film was calculated, K.
+    pub effective_temperature: f64,
+    /// Temperature of the oil that is supplied, K.
+    pub supply_temperature: f64,
+    /// Temperature of the oil that leaves, K.
+    pub outlet_temperature: f64,
+    /// Heat that is conducted away, W.
+    pub conducted: f64,
+    /// Radial clearance at the effective temperature, m.
+    pub radial_clearance: f64,
+    /// Radial clearance as the study gives it, m.
+    pub given_radial_clearance: f64,
+    /// Temperatures at which the bearing was calculated on the way, K.
+    pub trials: Vec<f64>,
 }
 
 /// One line of a study's input.

@@ -3,6 +3,7 @@
 mod accuracy;
 mod crew;
 mod cycle;
+mod heat;
 mod inputs;
 mod machine;
 mod record;
@@ -11,7 +12,8 @@ mod sweep;
 mod turn;
 
 use crate::input::{
-    BearingCase, Duty, FilmModel, FilmSettings, StoredInstants, Study, Subject, TiltCondition,
+    BearingCase, Duty, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
+    TiltCondition,
 };
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
@@ -259,15 +261,39 @@ fn solve_once(
             return solve_machine(study, plan, RunOptions::default(), progress);
         }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
-        Subject::Bearing(case) => match &case.duty {
-            Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
-            Duty::Load(load) => solve_load(case, load, study, &mut header, progress)?,
-            Duty::Cycle(duty) => {
-                solve_cycle(case, duty, &study.film, &mut header, spool, progress)?
+        Subject::Bearing(case) => match &case.heat {
+            HeatPlan::Given => solve_bearing(case, study, &mut header, spool, progress)?,
+            HeatPlan::Balance { path, expansion } => {
+                let heat = (path, expansion.as_ref());
+                let warm = heat::balanced(case, heat, study, progress)?;
+                let body = solve_bearing(&warm.case, study, &mut header, spool, progress)?;
+                warm.note(&mut header);
+                body
             }
+            HeatPlan::Field { .. } => return Err(NO_HEAT_FIELD.into()),
         },
     };
     Ok(Results { header, body })
+}
+
+/// Studies that ask for it are refused when they are read.
+const NO_HEAT_FIELD: FilmError = FilmError::Unsupported {
+    reason: "heat.model = \"field\" is not built yet",
+};
+
+/// A bearing at the temperature of its case.
+fn solve_bearing(
+    case: &BearingCase,
+    study: &Study,
+    header: &mut Header,
+    spool: Option<&mut FieldSpool>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Body, FilmError> {
+    match &case.duty {
+        Duty::State(state) => solve_state(case, state, &study.film, header),
+        Duty::Load(load) => solve_load(case, load, study, header, progress),
+        Duty::Cycle(duty) => solve_cycle(case, duty, &study.film, header, spool, progress),
+    }
 }
 
 fn limits(study: &Study) -> Vec<Limit> {
@@ -298,6 +324,7 @@ fn header(study: &Study) -> Header {
         error: None,
         grid: study.film.model.is_field().then_some(study.film.grid),
         limits: Vec::new(),
+        heat: None,
     }
 }
 

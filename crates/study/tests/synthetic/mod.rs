@@ -97,6 +97,7 @@ pub fn header(analysis: &str, title: &str) -> Header {
         error: None,
         grid: Some([128, 32]),
         limits: Vec::new(),
+        heat: None,
     }
 }
 

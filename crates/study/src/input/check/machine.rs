@@ -18,8 +18,9 @@ const ASYMMETRY: f64 = 1e-4;
 impl Checker<'_> {
     /// The machine; `None` where an error says why not.
     pub(super) fn machine(&mut self) -> Option<Subject> {
+        let heat = self.heat(None);
         let temperature = self.number("oil.temperature");
-        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature));
+        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature, &heat));
         let section = match self.mode {
             Mode::Engine => "engine",
             _ => "shaft",
@@ -40,6 +41,7 @@ impl Checker<'_> {
             bearings,
             lubricant: lubricant?,
             temperature: temperature?,
+            heat: heat?,
             speeds,
             orbit: orbit?,
         })))

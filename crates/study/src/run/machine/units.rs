@@ -207,6 +207,7 @@ pub(super) fn bearing_case(
         bearing: work.speeds[speed].bearings[bearing].clone(),
         lubricant: plan.lubricant.clone(),
         temperature: plan.temperature,
+        heat: plan.heat,
         duty: Duty::Cycle(duty.clone()),
     };
     (case, duty)
