@@ -21,8 +21,8 @@ pub enum HeatPlan {
         path: HeatPath,
         /// How heat leaves the film.
         wall: Wall,
-        /// How the clearance follows the temperature; `None`: the warm clearance is given.
-        expansion: Option<Expansion>,
+        /// Share of the oil that reaches a feed and mixes into what it gives.
+        carry_over: f64,
     },
 }
 
@@ -59,8 +59,8 @@ impl HeatPlan {
     #[must_use]
     pub const fn expansion(&self) -> Option<&Expansion> {
         match self {
-            Self::Given => None,
-            Self::Balance { expansion, .. } | Self::Field { expansion, .. } => expansion.as_ref(),
+            Self::Given | Self::Field { .. } => None,
+            Self::Balance { expansion, .. } => expansion.as_ref(),
         }
     }
 }

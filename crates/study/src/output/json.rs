@@ -91,9 +91,18 @@ fn heat_keys(heat: &HeatResults) -> Map<String, Value> {
         ),
         ("heat_balance_trials_degc", Value::Array(trials)),
     ];
-    keys.map(|(key, value)| (key.to_owned(), value))
+    let mut keys: Map<String, Value> = keys
+        .map(|(key, value)| (key.to_owned(), value))
         .into_iter()
-        .collect()
+        .collect();
+    if let Some(field) = &heat.field {
+        keys.insert("hottest_temperature_degc".into(), celsius(field.hottest));
+        keys.insert("heat_generated_w".into(), json!(field.generated));
+        keys.insert("heat_carried_out_w".into(), json!(field.carried_out));
+        keys.insert("energy_balance_relative".into(), json!(field.balance_error));
+        keys.insert("temperature_changes_k".into(), json!(field.changes));
+    }
+    keys
 }
 
 /// What asperities carry and lose, of a load (N); `boundary` and `total` are powers, W.

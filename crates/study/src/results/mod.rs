@@ -78,6 +78,23 @@ pub struct HeatResults {
     pub given_radial_clearance: f64,
     /// Temperatures at which the bearing was calculated on the way, K.
     pub trials: Vec<f64>,
+    /// More of a film whose temperature is a field; its mean over the film is then the effective one.
+    pub field: Option<HeatFieldResults>,
+}
+
+/// Temperatures of a film that has one at every place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HeatFieldResults {
+    /// Highest temperature, K.
+    pub hottest: f64,
+    /// Heat made in the film, W.
+    pub generated: f64,
+    /// Heat that the oil takes out at the ends, W.
+    pub carried_out: f64,
+    /// What the energy balance of all cells misses, over its largest part.
+    pub balance_error: f64,
+    /// Largest change of a temperature in each round, K.
+    pub changes: Vec<f64>,
 }
 
 /// One line of a study's input.

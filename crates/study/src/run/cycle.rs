@@ -1,5 +1,6 @@
 //! A load cycle: the orbit, and what its points do not hold.
 
+use super::heat_field::{CYCLE_TOLERANCE, FieldHeat};
 use super::record::FieldRecorder;
 use super::{
     ProgressCallback, conditions, film_of, note_edge_contact, note_outcome, with_reynolds_number,
@@ -9,11 +10,11 @@ use crate::progress::ProgressEvent;
 use crate::results::{Body, CycleFields, CycleResults, Header, InstantCoefficients, MOST_FRAMES};
 use crate::spool::FieldSpool;
 use sommerfeld_bearing::{
-    CyclePoint, JournalOrbit, LoadCycle, OrbitSettings, Progress, instant_coefficients,
-    journal_orbit,
+    CycleHeat, CyclePoint, JournalOrbit, LoadCycle, Observer, OrbitSettings, Progress,
+    instant_coefficients, journal_orbit, warm_orbit,
 };
 use sommerfeld_film::{
-    Bearing, FeedFlow, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step,
+    Bearing, FeedFlow, FilmError, FilmForce, FilmHistory, JournalState, Outcome, Step, Warmed,
 };
 use std::ops::ControlFlow;
 
@@ -33,6 +34,10 @@ pub(super) fn solve_cycle(
     );
     let solved = bearing_cycle(case, duty, settings, recorder, progress)?;
     note_outcome(solved.results.orbit.outcome, header);
+    if let (Some(heat), Some((warmed, changes))) = (FieldHeat::of(case), &solved.warmth) {
+        // What the orbit did not reach was said of the orbit.
+        heat.note(case, warmed, changes, Outcome::Converged, header);
+    }
     if let Some((crank_angle, edge)) = solved.edge_contact {
         let at = format!("at crank angle {:.1} deg", crank_angle.to_degrees());
         note_edge_contact(edge, &at, header);
@@ -57,6 +62,8 @@ pub(super) struct SolvedCycle {
     pub stopped: bool,
     /// The fields of each bearing that does the same later; none if the film showed none.
     pub turned: Vec<CycleFields>,
+    /// Temperatures, where they are a field.
+    pub warmth: Option<Warmth>,
 }
 
 /// The results of a bearing whose journal runs no orbit.
@@ -120,24 +127,57 @@ pub(super) fn bearing_cycle(
             edge_contact: None,
             stopped: false,
             turned: Vec::new(),
+            warmth: None,
         });
     }
     let mut watch = CycleWatch::new(duty, fields);
     let mut film = film_of(case, settings)?;
-    let mut orbit = journal_orbit(
-        film.as_mut(),
-        &case.bearing,
-        &duty.cycle,
-        &conditions(case),
-        &orbit_settings(duty),
-        &mut |point, film, stage| watch.see(point, film, stage, progress),
-    )?;
+    let heat = FieldHeat::of(case);
+    let (mut orbit, warmth) =
+        orbit_of(case, duty, film.as_mut(), heat.as_ref(), &mut |p, f, s| {
+            watch.see(p, f, s, progress)
+        })?;
     for point in &mut orbit.points {
         point.summary = with_reynolds_number(point.summary, case, &point.state);
     }
     let coefficients = watch.coefficients(case, film.as_mut())?;
-    Ok(watch.finish(case, &duty.cycle, orbit, coefficients))
+    let mut solved = watch.finish(case, &duty.cycle, orbit, coefficients);
+    solved.warmth = warmth;
+    Ok(solved)
 }
+
+/// The orbit, in the film's own temperatures where they are a field.
+fn orbit_of(
+    case: &BearingCase,
+    duty: &CycleDuty,
+    film: &mut dyn FilmForce,
+    heat: Option<&FieldHeat>,
+    observer: &mut Observer<'_>,
+) -> Result<(JournalOrbit, Option<Warmth>), FilmError> {
+    let (bearing, cycle) = (&case.bearing, &duty.cycle);
+    let (conditions, settings) = (conditions(case), orbit_settings(duty));
+    let Some(heat) = heat else {
+        let orbit = journal_orbit(film, bearing, cycle, &conditions, &settings, observer)?;
+        return Ok((orbit, None));
+    };
+    let heat = CycleHeat {
+        surroundings: heat.surroundings(),
+        tolerance: CYCLE_TOLERANCE,
+    };
+    let found = warm_orbit(
+        film,
+        bearing,
+        cycle,
+        &conditions,
+        &settings,
+        &heat,
+        observer,
+    )?;
+    Ok((found.orbit, Some((found.warmed, found.changes))))
+}
+
+/// Temperatures of the film and their largest change in each cycle, K.
+type Warmth = (Warmed, Vec<f64>);
 
 /// A crank angle at which coefficients are asked for, and what was seen nearest to it.
 struct Request {
@@ -236,6 +276,7 @@ impl<'a> CycleWatch<'a> {
                 coefficients,
             },
             turned: fields.collect(),
+            warmth: None,
         }
     }
 

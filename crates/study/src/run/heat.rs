@@ -114,6 +114,7 @@ pub(super) fn balanced(
             radial_clearance: warm.bearing.radial_clearance,
             given_radial_clearance: case.bearing.radial_clearance,
             trials: found.trials,
+            field: None,
         },
         outcome: found.outcome,
         case: warm,

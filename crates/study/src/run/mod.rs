@@ -4,6 +4,7 @@ mod accuracy;
 mod crew;
 mod cycle;
 mod heat;
+mod heat_field;
 mod inputs;
 mod machine;
 mod record;
@@ -262,7 +263,9 @@ fn solve_once(
         }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.heat {
-            HeatPlan::Given => solve_bearing(case, study, &mut header, spool, progress)?,
+            HeatPlan::Given | HeatPlan::Field { .. } => {
+                solve_bearing(case, study, &mut header, spool, progress)?
+            }
             HeatPlan::Balance { path, expansion } => {
                 let heat = (path, expansion.as_ref());
                 let warm = heat::balanced(case, heat, study, progress)?;
@@ -270,16 +273,10 @@ fn solve_once(
                 warm.note(&mut header);
                 body
             }
-            HeatPlan::Field { .. } => return Err(NO_HEAT_FIELD.into()),
         },
     };
     Ok(Results { header, body })
 }
-
-/// Studies that ask for it are refused when they are read.
-const NO_HEAT_FIELD: FilmError = FilmError::Unsupported {
-    reason: "heat.model = \"field\" is not built yet",
-};
 
 /// A bearing at the temperature of its case.
 fn solve_bearing(

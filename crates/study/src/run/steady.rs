@@ -1,5 +1,6 @@
 //! One state of the journal: given, or found as the equilibrium under a load.
 
+use super::heat_field::FieldHeat;
 use super::{
     ProgressCallback, conditions, film_of, note_edge_contact, note_outcome, with_reynolds_number,
 };
@@ -7,8 +8,9 @@ use crate::input::{Analysis, BearingCase, FilmSettings, SteadyLoad, Study, TiltC
 use crate::progress::ProgressEvent;
 use crate::results::{Body, Dynamics, FieldSnapshot, Header, SteadyResults, status_name};
 use sommerfeld_bearing::{
-    Coefficients, Equilibrium, EquilibriumRequest, EquilibriumSettings, Stability, StabilityChart,
-    closing_edge, find_equilibrium, rotor_stability, stability_chart,
+    Coefficients, Equilibrium, EquilibriumRequest, EquilibriumSettings, HeatFieldSettings,
+    Stability, StabilityChart, closing_edge, find_equilibrium, rotor_stability, stability_chart,
+    warm_equilibrium,
 };
 use sommerfeld_film::{
     Bearing, Extreme, FilmError, FilmForce, FilmSolver, FilmSummary, Inlet, JournalState,
@@ -68,7 +70,7 @@ pub(super) fn solve_load(
         start: None,
         settings: EquilibriumSettings::default(),
     };
-    let found = find_equilibrium(film.as_mut(), &case.bearing, &request, &conditions(case))?;
+    let found = at_rest(case, film.as_mut(), &request, header)?;
     note_outcome(found.outcome, header);
     let edges = case.bearing.edge_film_thickness(&found.state);
     let closing = closing_edge(edges, case.bearing.radial_clearance);
@@ -111,6 +113,37 @@ pub(super) fn solve_load(
         }
     }
     Ok(body)
+}
+
+/// The equilibrium, in the film's own temperatures where they are a field.
+fn at_rest(
+    case: &BearingCase,
+    film: &mut dyn FilmForce,
+    request: &EquilibriumRequest,
+    header: &mut Header,
+) -> Result<Equilibrium, FilmError> {
+    let Some(heat) = FieldHeat::of(case) else {
+        return find_equilibrium(film, &case.bearing, request, &conditions(case));
+    };
+    let usual = HeatFieldSettings::default();
+    let found = warm_equilibrium(
+        film,
+        &case.bearing,
+        request,
+        &conditions(case),
+        &heat.surroundings(),
+        &usual,
+    )?;
+    let outcome = match found.rest.outcome {
+        Outcome::Converged => found.outcome,
+        // Said of the equilibrium itself.
+        _ => Outcome::Converged,
+    };
+    heat.note(case, &found.warmed, &found.changes, outcome, header);
+    Ok(Equilibrium {
+        film_updates: found.film_updates,
+        ..found.rest
+    })
 }
 
 /// Coefficients with tilt. An aligned journal is solved on half a film, which knows none: the whole

@@ -13,7 +13,7 @@ const EXPANSION: &str = "heat.expansion";
 const RING: &str = "heat.expansion.shell";
 /// Keys of the balance alone, of the field alone, of both.
 const OF_BALANCE: &[&str] = &["conductance", "surroundings_temperature", "outlet_weight"];
-const OF_FIELD: &[&str] = &["wall_coefficient", "wall_temperature"];
+const OF_FIELD: &[&str] = &["wall_coefficient", "wall_temperature", "carry_over"];
 const OF_BOTH: &[&str] = &["supply_temperature", "expansion"];
 
 impl Checker<'_> {
@@ -35,6 +35,13 @@ impl Checker<'_> {
         let path = self.heat_path()?;
         let expansion = match self.entry(EXPANSION).map(|entry| &entry.value) {
             None => None,
+            Some(Value::Table) if model == "field" => {
+                let place = self.section_error(EXPANSION, "");
+                let error = not_built(place, "heat.expansion of a field of temperature");
+                self.errors
+                    .push(error.hinting("give the clearance of the warm bearing"));
+                return None;
+            }
             Some(Value::Table) => Some(self.expansion(bearing)?),
             Some(_) => return None,
         };
@@ -43,7 +50,7 @@ impl Checker<'_> {
             "field" => HeatPlan::Field {
                 path,
                 wall: self.wall(path.supply_temperature)?,
-                expansion,
+                carry_over: self.number("heat.carry_over")?,
             },
             _ => HeatPlan::Balance { path, expansion },
         })
@@ -82,9 +89,8 @@ impl Checker<'_> {
     /// Refuses by name what no run reads yet.
     fn refuse_heat_not_built(&mut self, model: &str) -> Option<()> {
         let is_built = match self.mode {
-            Mode::Film | Mode::Equilibrium | Mode::Coefficients | Mode::LoadCycle => {
-                model == "balance"
-            }
+            Mode::Film => model == "balance",
+            Mode::Equilibrium | Mode::Coefficients | Mode::LoadCycle => true,
             _ => false,
         };
         if is_built {
