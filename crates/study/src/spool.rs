@@ -163,6 +163,7 @@ mod tests {
                 pressure: &row(0.0),
                 film_fraction: &row(1.0),
                 film_thickness: &row(2.0),
+                temperature: &[],
             };
             assert!(spool.push(value, &field));
         };

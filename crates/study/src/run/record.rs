@@ -253,6 +253,7 @@ mod tests {
             film_fraction: &vec![1.0; pressure.len()],
             pressure: &pressure,
             film_thickness: &thickness,
+            temperature: &[],
         };
         let least = thickness.iter().copied().fold(f64::INFINITY, f64::min);
         let mut summary = FilmSummary::default();
