@@ -6,6 +6,8 @@ use sommerfeld_oil::{CompressionLaw, DensityLaw, PressureLaw, ShearThinning};
 use sommerfeld_study::input::{HeatPlan, Study, study_from_text};
 use sommerfeld_study::output::summary;
 use sommerfeld_study::run::solve;
+use sommerfeld_study::templates;
+use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -125,4 +127,61 @@ fn heat_of_an_equilibrium_is_balanced() {
     near(number("power_loss_w"), carried + conducted, 1e-5);
     let growth = (23e-6 * 72e-3 - 11.5e-6 * (72e-3 - 72e-6)) * (effective - 20.0);
     near(number("warm_diametral_clearance_m"), 72e-6 + growth, 1e-9);
+}
+
+/// Rough surfaces under a load that smooth ones carry at a thinner film: asperities carry a part, and
+/// the power falls into two parts.
+#[test]
+fn contact_has_its_own_figures() {
+    let study = study(
+        "[oil]\nviscosity = \"2 mPa.s\"\n[bearing.surface]\nroughness_journal = \"1 um\"\n\
+         roughness_shell = \"1 um\"\nboundary_friction = 0.1\ncontact = { law = \"greenwood-tripp\", \
+         factor = 1e-3, asperity_product = 0.05, modulus = \"53.3 GPa\" }\n",
+    );
+    let results = solve(&study, &mut |_| ControlFlow::Continue(())).unwrap();
+    let summary = summary(&results);
+    let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}"));
+    assert_eq!(summary["status"], "converged");
+    let share = number("contact_load_share");
+    assert!(share > 1e-3 && share < 1.2, "{share}");
+    assert!(number("peak_contact_pressure_pa") > 1e4);
+    assert!(number("boundary_power_w") > 0.0 && number("viscous_power_w") > 0.0);
+    let both = number("boundary_power_w") + number("viscous_power_w");
+    near(both, number("power_loss_w"), 1e-12);
+}
+
+/// The means over the cycle are balanced to 0.05 K: of a rise of several K that is a per cent.
+#[test]
+fn heat_of_a_load_cycle_is_balanced() {
+    let directory = tempfile::tempdir().unwrap();
+    let template = templates::find("one-axis-cycle").unwrap();
+    for (name, content) in template.files {
+        fs::write(directory.path().join(name), content).unwrap();
+    }
+    let oil = template.study.find("[oil]").unwrap();
+    let end = oil + template.study[oil..].find("\n\n").unwrap();
+    let text = format!(
+        "{}[oil]\noil = \"nominal-15w-40\"\nheat_capacity = \"2000 J/(kg.K)\"\n{}\n[heat]\n\
+         model = \"balance\"\nsupply_temperature = \"70 degC\"\n",
+        &template.study[..oil],
+        &template.study[end..]
+    );
+    let study = study_from_text("study.toml", &text, directory.path())
+        .unwrap_or_else(|errors| panic!("{errors}"));
+    let results = solve(&study, &mut |_| ControlFlow::Continue(())).unwrap();
+    let summary = summary(&results);
+    let number = |key: &str| summary[key].as_f64().unwrap_or_else(|| panic!("{key}"));
+    assert_eq!(summary["status"], "converged", "{}", summary["messages"]);
+    let rise = number("outlet_temperature_degc") - 70.0;
+    near(
+        number("effective_temperature_degc"),
+        70.0 + 0.5 * rise,
+        1e-9,
+    );
+    let carried = 850.0 * 2000.0 * number("mean_side_flow_m3_s") * rise;
+    let power = number("mean_power_loss_w");
+    assert!(
+        (power / carried - 1.0).abs() < 0.2 / rise,
+        "{power} {carried} {rise}"
+    );
 }

@@ -33,7 +33,6 @@ use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
     MobilityFilm, Outcome, ShortBearingFilm,
 };
-use sommerfeld_oil::{Lubricant, ViscosityLaw};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -338,19 +337,12 @@ fn models_of(study: &Study) -> Vec<Model> {
             if study.film.model.is_field() {
                 used.extend(models::of_bearing(&case.bearing));
             }
-            used.extend(models::find("viscosity", viscosity_law(&case.lubricant)));
+            let is_field = study.film.model.is_field();
+            used.extend(models::of_oil(&case.lubricant, is_field));
+            used.extend(models::find("heat", case.heat.name()));
         }
     }
     used
-}
-
-/// As in the study file.
-fn viscosity_law(lubricant: &Lubricant) -> &'static str {
-    match lubricant.viscosity {
-        ViscosityLaw::Constant { .. } => "constant",
-        ViscosityLaw::Vogel { .. } => "vogel",
-        ViscosityLaw::AstmD341 { .. } => "astm-d341",
-    }
 }
 
 /// Whether the journal cannot tilt in this duty.
