@@ -279,6 +279,99 @@ fn clearance_of_a_big_end() {
 /// Machines of the examples, run at one of their speeds.
 mod machines;
 
+/// Rough surfaces, a real oil, a lining and heat, on a coarser grid and step than the example's own.
+#[test]
+fn mixed_big_end_of_a_diesel() {
+    let changes = [
+        ("grid = [64, 16]", "grid = [48, 8]"),
+        (
+            "period = \"720 deg\"",
+            "period = \"720 deg\"\ncrank_step = \"2 deg\"",
+        ),
+    ];
+    let ran = machines::changed("08-big-end-mixed", "study.toml", &changes);
+    let summary = ran.summary();
+    assert!(number(&summary, "mass_balance_relative") < 1e-8);
+    assert!(number(&summary, "energy_balance_relative") < 1e-8);
+    // What the film makes of heat leaves with its oil.
+    let (made, out) = (
+        number(&summary, "heat_generated_w"),
+        number(&summary, "heat_carried_out_w"),
+    );
+    assert!((out / made - 1.0).abs() < 0.02, "{made} {out}");
+    let temperatures = ["supply", "effective", "outlet", "hottest"]
+        .map(|name| number(&summary, &format!("{name}_temperature_degc")));
+    let [supply, effective, outlet, hottest] = temperatures;
+    assert!(
+        supply == 100.0 && effective > supply + 10.0,
+        "{temperatures:?}"
+    );
+    assert!(hottest > effective && outlet > supply, "{temperatures:?}");
+    // Asperities touch, and carry little.
+    let share = number(&summary, "contact_load_share");
+    assert!(share > 0.0 && share < 0.01, "{share}");
+    let (boundary, viscous) = (
+        number(&summary, "boundary_power_w"),
+        number(&summary, "viscous_power_w"),
+    );
+    assert!(
+        boundary > 0.0 && boundary < 0.1 * viscous,
+        "{boundary} {viscous}"
+    );
+    // Within a tenth of the page, whose grid is finer.
+    let shown = machines::row("08-big-end-mixed", "all of it, warm");
+    for (key, factor, shown) in [
+        ("minimum_film_thickness_m", 1e6, shown[0]),
+        ("peak_film_pressure_pa", 1e-6, shown[1]),
+        ("mean_power_loss_w", 1.0, shown[2]),
+    ] {
+        let value = factor * number(&summary, key);
+        assert!(
+            (value / shown - 1.0).abs() < 0.1,
+            "{key}: {value}, the page says {shown}"
+        );
+    }
+}
+
+/// From creeping to full film: friction falls, has its minimum, and rises; contact only falls.
+#[test]
+fn stribeck_curve_of_a_bearing() {
+    let ran = run(&root().join("examples/09-stribeck/study.toml")).converged();
+    check_report("09", &ran.report());
+    let table = Table::read(&ran.results.join("cases.csv"));
+    let speed = table.numbers("operation.speed[rpm]");
+    assert_eq!(speed.len(), 19);
+    let torque = table.numbers("friction_torque_journal[N.m]");
+    let film = table.numbers("minimum_film_thickness[m]");
+    let share = table.numbers("contact_load_share[-]");
+    assert!(film.windows(2).all(|pair| pair[1] > pair[0]));
+    assert!(share.windows(2).all(|pair| pair[1] < pair[0]));
+    let least = (0..19)
+        .min_by(|a, b| torque[*a].total_cmp(&torque[*b]))
+        .unwrap();
+    assert!((400.0..=500.0).contains(&speed[least]), "{}", speed[least]);
+    assert!(torque[..=least].windows(2).all(|pair| pair[1] < pair[0]));
+    assert!(torque[least..].windows(2).all(|pair| pair[1] > pair[0]));
+    // Creeping, friction is nearly the boundary's on what touches.
+    let friction = torque[0] / (8e3 * 0.0239);
+    assert!(
+        (friction / (0.02 * share[0]) - 1.0).abs() < 0.05,
+        "{friction}"
+    );
+    for (speed, shown) in [(5.0, "5 rpm"), (1000.0, "1000 rpm")] {
+        let at = table
+            .numbers("operation.speed[rpm]")
+            .iter()
+            .position(|s| *s == speed)
+            .unwrap();
+        let page = machines::words("09-stribeck", shown);
+        let value: f64 = page[0].parse().unwrap();
+        let friction = torque[at] / (8e3 * 0.0239);
+        assert!((friction - value).abs() < 1e-4 * 0.6, "{friction} {value}");
+    }
+    example("09-stribeck/bearing.toml");
+}
+
 #[test]
 fn every_example_is_run_here() {
     let mut studies: Vec<String> = Vec::new();
@@ -310,6 +403,9 @@ fn every_example_is_run_here() {
             "06-balancer-shaft/determinate.toml",
             "06-balancer-shaft/study.toml",
             "07-clearance-sweep/study.toml",
+            "08-big-end-mixed/study.toml",
+            "09-stribeck/bearing.toml",
+            "09-stribeck/study.toml",
         ]
     );
 }

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 /// An example of a machine with changes to its text, its data beside it.
-fn changed(directory: &str, study: &str, changes: &[(&str, &str)]) -> Ran {
+pub(crate) fn changed(directory: &str, study: &str, changes: &[(&str, &str)]) -> Ran {
     let from = root().join("examples").join(directory);
     let place = tempfile::tempdir().unwrap();
     for entry in fs::read_dir(&from).unwrap() {
@@ -26,13 +26,19 @@ fn changed(directory: &str, study: &str, changes: &[(&str, &str)]) -> Ran {
 }
 
 /// Cells of the row of a page that begins with this name, after it; the first such row.
-fn row(directory: &str, name: &str) -> Vec<f64> {
+pub(crate) fn words(directory: &str, name: &str) -> Vec<String> {
     let page = root().join("examples").join(directory).join("README.md");
     let page = fs::read_to_string(page).unwrap();
     let start = format!("| {name} | ");
     let line = page.lines().find(|line| line.starts_with(&start)).unwrap();
     let cells = line[start.len()..].trim_end_matches(" |").split(" | ");
-    cells.map(|cell| cell.parse().unwrap()).collect()
+    cells.map(str::to_owned).collect()
+}
+
+/// The same as numbers.
+pub(crate) fn row(directory: &str, name: &str) -> Vec<f64> {
+    let cells = words(directory, name);
+    cells.iter().map(|cell| cell.parse().unwrap()).collect()
 }
 
 /// Columns of `bearings.csv` in the order of the tables, the factor into their units, and by how much

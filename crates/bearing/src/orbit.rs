@@ -200,8 +200,12 @@ pub fn warm_orbit(
     })
 }
 
-/// A film whose heat falls as it warms takes this share of a change.
-const WARMING_SHARE: f64 = 0.7;
+/// Shares of a change that a film takes: at first, from temperatures that may be far off and a film whose
+/// heat falls as it warms, and later.
+const FIRST_WARMING_SHARE: f64 = 0.7;
+const WARMING_SHARE: f64 = 0.95;
+/// Cycles with the first share.
+const FIRST_CYCLES: usize = 2;
 
 impl Run<'_> {
     /// Cycles until the orbit closes, and the temperatures with it.
@@ -247,7 +251,12 @@ impl Run<'_> {
         let Some(heat) = self.heat else {
             return Some(true);
         };
-        self.warmed = self.film.warm(&heat.surroundings, WARMING_SHARE)?;
+        let share = if self.changes.len() < FIRST_CYCLES {
+            FIRST_WARMING_SHARE
+        } else {
+            WARMING_SHARE
+        };
+        self.warmed = self.film.warm(&heat.surroundings, share)?;
         self.changes.push(self.warmed.change);
         Some(self.warmed.change <= heat.tolerance)
     }
