@@ -310,7 +310,6 @@ fn summary(state: &JournalState, peak: f64, turned: f64) -> FilmSummary {
         cell_residual: 5e-12,
         iterations: 3,
         reynolds_number: 180.0,
-        ..FilmSummary::default()
     }
 }
 
