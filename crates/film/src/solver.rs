@@ -12,7 +12,7 @@
 
 use crate::bearing::{Bearing, Cavitation, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet, model_of};
-use crate::energy::{HeatAccount, Surroundings};
+use crate::energy::Surroundings;
 use crate::film_state::FilmState;
 use crate::finish::Finish;
 use crate::force::{
@@ -32,6 +32,9 @@ use crate::reynolds::{Cell, Storage};
 use crate::supply::mark_fed_cells;
 use crate::surfaces::Surfaces;
 use sommerfeld_oil::{Lubricant, ShearThinning};
+
+mod start;
+mod warmth;
 
 /// A film solved on a grid: the [`FilmForce`] with fields.
 pub struct FilmSolver {
@@ -249,64 +252,6 @@ impl FilmSolver {
             axial_mm: 1e3 * least.axial,
             gap_um: 1e6 * least.gap,
         })
-    }
-
-    /// Set of a cold film: that of the same film on half the cells, to the root.
-    fn start_cold(
-        &mut self,
-        state: &JournalState,
-        conditions: &Conditions<'_>,
-    ) -> Result<(), FilmError> {
-        self.film.is_warm = true;
-        for cell in &mut self.film.set.cells {
-            *cell = Cell::Full;
-        }
-        let Some(coarse) = &mut self.coarse else {
-            return Ok(());
-        };
-        coarse.react(state, Step::Steady, conditions)?;
-        let m = self.grid.n_axial();
-        let (n_coarse, m_coarse) = (coarse.grid.n_around(), coarse.grid.n_axial());
-        let (around, along) = (self.grid.n_around() / n_coarse, m / m_coarse);
-        for (k, cell) in self.film.set.cells.iter_mut().enumerate() {
-            let parent = (k / m / around) * m_coarse + (k % m) / along;
-            *cell = coarse.film.set.cells[parent];
-        }
-        let starved = &coarse.film.lines.starved;
-        self.film.lines.starved.copy_from_slice(starved);
-        Ok(())
-    }
-
-    /// A soft shell whose rigid shape the journal overlaps: its displacement is followed from where the
-    /// shapes leave a gap, step by step.
-    fn walk_in(
-        &mut self,
-        state: &JournalState,
-        conditions: &Conditions<'_>,
-    ) -> Result<(), FilmError> {
-        const STEPS: usize = 10;
-        const ROOM: f64 = 0.15;
-        let is_soft = self.bearing.elasticity.compliance() > 0.0;
-        let gap = |state: &JournalState| self.search.narrowest(&self.bearing, state).gap;
-        let open = ROOM * self.bearing.radial_clearance;
-        if !is_soft || gap(state) >= open {
-            return Ok(());
-        }
-        let scaled = |share: f64| JournalState {
-            position: state.position.map(|x| share * x),
-            tilt: state.tilt.map(|turn| share * turn),
-            ..*state
-        };
-        let mut share = 1.0;
-        while share > 0.1 && gap(&scaled(share)) < open {
-            share *= 0.95;
-        }
-        let first = share;
-        for step in 0..STEPS {
-            share = first + (1.0 - first) * step as f64 / STEPS as f64;
-            self.react(&scaled(share), Step::Steady, conditions)?;
-        }
-        Ok(())
     }
 
     /// Before an update: what is refused, a film that is not there, the set of a cold film; stages 1 to
@@ -623,54 +568,11 @@ impl FilmForce for FilmSolver {
     }
 
     fn account_heat(&mut self, duration: f64) {
-        let periodic = self.bearing.inlet == Inlet::Cyclic;
-        let mut heat = std::mem::take(&mut self.film.heat);
-        let turned = self.frame.turn(&self.film.state);
-        let local = self.frame.to_grid(&self.film.state, turned);
-        heat.take(&self.solved(), &local);
-        let feeds = self.bearing.feeds.len() + usize::from(!periodic);
-        let radius = self.bearing.radius();
-        let account = self
-            .film
-            .account
-            .get_or_insert_with(|| HeatAccount::new(&self.grid, radius, periodic, feeds));
-        account.add(&heat.instant(&self.film.fed_by), duration);
-        self.film.heat = heat;
+        self.add_to_account(duration);
     }
 
     fn warm(&mut self, surroundings: &Surroundings<'_>, share: f64) -> Option<Warmed> {
-        let account = self.film.account.as_mut()?;
-        let found = account.temperature(surroundings)?;
-        account.clear();
-        if self.film.passage.is_none() {
-            self.film.passage = Passage::new(&self.grid, None, false, true);
-        }
-        let reference = surroundings.supply.first().copied();
-        let reference = reference.unwrap_or(surroundings.ambient);
-        let cells = self
-            .film
-            .temperature
-            .get_or_insert_with(|| vec![reference; found.cells.len()]);
-        let mut warmed = Warmed {
-            outlet: found.outlet,
-            balance: self.extent.energy(found.balance),
-            hottest: f64::NEG_INFINITY,
-            ..Warmed::default()
-        };
-        for (cell, led_to) in cells.iter_mut().zip(&found.cells) {
-            warmed.change = warmed.change.max((led_to - *cell).abs());
-            *cell += share * (led_to - *cell);
-            warmed.hottest = warmed.hottest.max(*cell);
-        }
-        let m = self.grid.n_axial();
-        let (mut sum, mut area) = (0.0, 0.0);
-        for (k, cell) in cells.iter().enumerate() {
-            sum += cell * self.grid.area(k / m, k % m);
-            area += self.grid.area(k / m, k % m);
-        }
-        warmed.mean = sum / area;
-        self.film.is_warm = true;
-        Some(warmed)
+        self.move_temperatures(surroundings, share)
     }
 
     fn accept_step(&mut self) {
