@@ -192,7 +192,10 @@ mod tests {
                 1e6 * 1e6 * cells[2] * shell.housing_growth(joint)
             };
             let stress = growth(modulus, poisson);
-            let strain = growth(modulus / (1.0 - poisson * poisson), poisson / (1.0 - poisson));
+            let strain = growth(
+                modulus / (1.0 - poisson * poisson),
+                poisson / (1.0 - poisson),
+            );
             assert!((stress - cells[5]).abs() < 5e-4, "{row}: {stress}");
             assert!((strain - cells[6]).abs() < 5e-4, "{row}: {strain}");
             read += 1;
