@@ -413,16 +413,9 @@ impl FilmState {
         if self.expansion.is_linear() {
             return;
         }
-        for values in [
-            &mut self.pressure,
-            &mut self.solution,
-            &mut self.expansion.pressure,
-        ] {
-            values.fill(0.0);
-        }
-        self.expansion.content.fill(1.0);
-        self.expansion.density.fill([1.0, 0.0]);
-        self.expansion.displacement.fill([0.0; 2]);
+        self.pressure.fill(0.0);
+        self.solution.fill(0.0);
+        self.expansion.forget();
         self.stiffened.fill([0.0, 1.0]);
     }
 
