@@ -260,3 +260,28 @@ fn one_assumption_at_a_time() {
         print(name, &over_speed(&rig));
     }
 }
+
+/// A shell that gives way under an oil that thickens: the test bearing of the rig comes to rest.
+#[test]
+fn soft_shells_rest_on_oil_that_thickens() {
+    for thickness in [0.3e-3, 2e-3] {
+        let rig = Rig {
+            elasticity: Elasticity::Layer {
+                thickness,
+                modulus: 70e9,
+                poisson: 0.3,
+            },
+            cells: [64, 16],
+            ..Rig::as_stated()
+        };
+        let bearing = rig.bearing(47.8e-3, 17.2e-3, FeedShape::Hole { diameter: 5e-3 });
+        for rpm in [3000.0, 1000.0, 300.0] {
+            let rest = rig.rest(&bearing, 8e3, rpm * PI / 30.0);
+            assert_eq!(
+                rest.outcome,
+                Outcome::Converged,
+                "{thickness} m, {rpm} 1/min"
+            );
+        }
+    }
+}
