@@ -3,7 +3,9 @@
 //!
 //! The loads are those of `examples/02-big-end-diesel`, the grids those of an engine (64 x 16 cells):
 //! half a film for an aligned journal, all of it for one whose tilt is prescribed, and a film that
-//! remembers. Beside the times stand the figures of the cycle, which a faster orbit must not move.
+//! remembers. With `physics` in its name: the film that remembers on 128 x 32 cells, plain and with rough
+//! surfaces in contact and an oil that thickens and is compressed (bar: twice the time per cycle); and the
+//! bearing at rest with one temperature and with one for each cell (bar: three times). Beside the times stand the figures of the cycle, which a faster orbit must not move.
 
 #![allow(
     clippy::panic,
@@ -15,10 +17,15 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use common::{CONDITIONS, diesel_big_end, diesel_cycle};
-use sommerfeld_bearing::{CycleTilt, LoadCycle, OrbitSettings, journal_orbit};
-use sommerfeld_film::{Bearing, Cavitation, FilmForce, FilmSolver, JournalState, Step};
-use sommerfeld_oil::Lubricant;
+use common::{CONDITIONS, diesel_big_end, diesel_cycle, greenwood_tripp, rig_finish};
+use sommerfeld_bearing::{
+    CycleTilt, EquilibriumRequest, EquilibriumSettings, HeatFieldSettings, LoadCycle,
+    OrbitSettings, find_equilibrium, journal_orbit, warm_equilibrium,
+};
+use sommerfeld_film::{
+    Bearing, Cavitation, FilmForce, FilmSolver, JournalState, Outcome, Step, Surroundings,
+};
+use sommerfeld_oil::{CompressionLaw, DensityLaw, Lubricant, PressureLaw, ViscosityLaw};
 use std::f64::consts::PI;
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -59,10 +66,7 @@ fn main() {
             &cycle,
         ),
     ] {
-        if std::env::args()
-            .skip(1)
-            .any(|word| !word.starts_with('-') && !name.contains(&word))
-        {
+        if !asked_for(name) {
             continue;
         }
         let bearing = diesel_big_end(cavitation);
@@ -72,8 +76,116 @@ fn main() {
         };
         let mut film = film.unwrap();
         updates(name, &mut film);
-        measure(name, &mut film, &bearing, cycle, degrees);
+        measure(name, &mut film, &bearing, cycle, degrees, 3);
     }
+    if asked_for("mixed physics") {
+        mixed(&cycle);
+    }
+    if asked_for("warm physics") {
+        warm();
+    }
+}
+
+/// No word was given, or all of them are in the name.
+fn asked_for(name: &str) -> bool {
+    let mut words = std::env::args().skip(1).filter(|w| !w.starts_with('-'));
+    words.all(|word| name.contains(&word))
+}
+
+/// The fine grid of the bars.
+const FINE: [usize; 2] = [128, 32];
+
+/// One cycle with each physics: mixed, piezoviscous, both.
+fn mixed(cycle: &LoadCycle) {
+    let smooth = diesel_big_end(Cavitation::MassConserving);
+    let rough = Bearing {
+        finish: rig_finish(greenwood_tripp(1e-3)),
+        ..smooth.clone()
+    };
+    let plain = Lubricant::constant(8e-3, 850.0);
+    let thick = Lubricant {
+        viscosity_pressure: PressureLaw::Roelands {
+            alpha: 9.5e-9,
+            temperature: Default::default(),
+        },
+        ..plain.clone()
+    };
+    let dense = Lubricant {
+        density_pressure: CompressionLaw::DowsonHigginson,
+        ..thick.clone()
+    };
+    for (name, bearing, oil) in [
+        ("physics: plain", &smooth, &plain),
+        ("physics: rough, contact", &rough, &plain),
+        ("physics: rough, Roelands", &rough, &thick),
+        ("physics: rough, R., compressed", &rough, &dense),
+    ] {
+        let mut film = FilmSolver::aligned(bearing, oil, FINE).unwrap();
+        updates(name, &mut film);
+        measure(name, &mut film, bearing, cycle, 1.0, 1);
+    }
+}
+
+/// The bearing at rest, at one temperature and at one for each cell: the fastest of some.
+fn warm() {
+    let bearing = diesel_big_end(Cavitation::MassConserving);
+    let viscosity = ViscosityLaw::Vogel {
+        a: 1.3e-4,
+        b: 900.0,
+        c: 110.0 - 273.15,
+    };
+    let oil = Lubricant::newtonian(viscosity, DensityLaw::Constant { density: 850.0 });
+    let request = EquilibriumRequest {
+        load: [12e3, 0.0],
+        moment: None,
+        frame: JournalState {
+            journal_speed: 209.0,
+            ..JournalState::default()
+        },
+        start: None,
+        settings: EquilibriumSettings::default(),
+    };
+    let supply = [CONDITIONS.temperature];
+    let surroundings = Surroundings {
+        volumetric_heat: 1.8e6,
+        supply: &supply,
+        ambient: supply[0],
+        carry_over: 1.0,
+        wall: (0.0, supply[0]),
+    };
+    let mut fastest = [f64::INFINITY; 2];
+    let mut counts = [0; 3];
+    for _ in 0..5 {
+        let mut film = FilmSolver::aligned(&bearing, &oil, FINE).unwrap();
+        let clock = Instant::now();
+        let rest = find_equilibrium(&mut film, &bearing, &request, &CONDITIONS).unwrap();
+        fastest[0] = fastest[0].min(clock.elapsed().as_secs_f64());
+        assert_eq!(rest.outcome, Outcome::Converged);
+        let mut film = FilmSolver::aligned(&bearing, &oil, FINE).unwrap();
+        let settings = HeatFieldSettings::default();
+        let clock = Instant::now();
+        let warm = warm_equilibrium(
+            &mut film,
+            &bearing,
+            &request,
+            &CONDITIONS,
+            &surroundings,
+            &settings,
+        )
+        .unwrap();
+        fastest[1] = fastest[1].min(clock.elapsed().as_secs_f64());
+        assert_eq!(warm.outcome, Outcome::Converged);
+        counts = [rest.film_updates, warm.film_updates, warm.changes.len()];
+    }
+    println!(
+        "physics: at rest, one temperature {:.1} ms ({} updates), a field {:.1} ms ({} updates, {} rounds), ratio {:.2}",
+        1e3 * fastest[0],
+        counts[0],
+        1e3 * fastest[1],
+        counts[1],
+        counts[2],
+        fastest[1] / fastest[0]
+    );
 }
 
 /// One update of the film, and one without tangents, at a state of the orbit: the fastest of many.
@@ -103,10 +215,11 @@ fn measure(
     bearing: &Bearing,
     cycle: &LoadCycle,
     degrees: f64,
+    cycles: usize,
 ) {
     let settings = OrbitSettings {
         crank_step: degrees.to_radians(),
-        cycle_limit: 3,
+        cycle_limit: cycles,
         // All of them, whatever the closure.
         closure_tolerance: 0.0,
         ..OrbitSettings::default()

@@ -23,6 +23,13 @@ const TOLERATED_GROWTH: f64 = 4.0;
 /// Step reductions in a row before the iterate is kept as it is.
 const LARGEST_BACKTRACKS: usize = 6;
 
+/// Updates in a row at one position whose residual grew before a step from there is taken back: where the
+/// cavitated set still changes, the growth is that of the set.
+const SETTLING_UPDATES: usize = 8;
+
+/// Ways back to wider gaps from positions where the settled film has no solution.
+const LARGEST_RETREATS: usize = 8;
+
 /// How far the journal may be from where its film was last updated, over the step tolerance, for the
 /// film to show a point: its velocity and power are off by that over the duration.
 const FIELD_ACCURACY: f64 = 0.1;
@@ -99,6 +106,10 @@ impl Motion {
             }
         }
         self
+    }
+
+    fn is_at_rest(&self) -> bool {
+        matches!(self, Self::AtRest)
     }
 
     fn mass(&self) -> f64 {
@@ -243,8 +254,7 @@ impl Balance {
         gap: f64,
     ) -> Option<Coordinates> {
         let plain = self.resisted_step(residual, tangent, 0.0);
-        if matches!(self.motion, Motion::AtRest)
-            || plain.is_some_and(|step| length(step, self.arm) <= gap.abs())
+        if self.motion.is_at_rest() || plain.is_some_and(|step| length(step, self.arm) <= gap.abs())
         {
             return plain;
         }
@@ -340,10 +350,18 @@ impl Balance {
             let size = residual.iter().map(|r| r * r).sum::<f64>().sqrt() / self.force_scale;
             if linearised.outcome != Outcome::Converged {
                 newton.keep_best(state, &linearised, f64::INFINITY);
-                if newton.step_back(f64::INFINITY, linearised.outcome) {
+                let outcome = linearised.outcome;
+                newton.met_limit |= outcome == Outcome::NoSolution;
+                if newton.step_back(f64::INFINITY, outcome)
+                    || (self.motion.is_at_rest()
+                        && newton.retreat(film.minimum_gap(&state), outcome))
+                {
                     continue;
                 }
                 break;
+            }
+            if self.motion.is_at_rest() && newton.settles_first(size, linearised.settled) {
+                continue;
             }
             if newton.step_back(size, Outcome::NotConverged) {
                 continue;
@@ -425,6 +443,11 @@ struct Newton {
     /// Last accepted position with the step from there and its residual.
     previous: Option<(Coordinates, Coordinates, f64)>,
     backtracks: usize,
+    /// Updates in a row at this position.
+    settling: usize,
+    retreats: usize,
+    /// Trials were turned back by settled films without a solution.
+    met_limit: bool,
     best: Option<(JournalState, Linearised, f64)>,
     /// Why the last trial was refused.
     cause: Outcome,
@@ -439,6 +462,9 @@ impl Newton {
             position: start,
             previous: None,
             backtracks: 0,
+            settling: 0,
+            retreats: 0,
+            met_limit: false,
             best: None,
             cause: Outcome::NotConverged,
             table: Vec::new(),
@@ -463,9 +489,40 @@ impl Newton {
             return false;
         }
         self.backtracks += 1;
+        self.settling = 0;
         let shorter = step.map(|value| 0.5 * value);
         self.position = add(from, 1.0, shorter);
         self.previous = Some((from, shorter, before));
+        true
+    }
+
+    /// The residual grew while the cavitated set changed: the film is to be updated here once more before
+    /// the step is judged.
+    fn settles_first(&mut self, residual: f64, settled: bool) -> bool {
+        let grew = self
+            .previous
+            .is_some_and(|(_, _, before)| residual > TOLERATED_GROWTH * before);
+        if settled || !grew || self.settling >= SETTLING_UPDATES {
+            return false;
+        }
+        self.settling += 1;
+        true
+    }
+
+    /// Goes on from a gap half as wide again, where the settled film has no solution at the last accepted
+    /// position either: that had been taken with a set that was not settled.
+    fn retreat(&mut self, gap: f64, cause: Outcome) -> bool {
+        let eccentricity = self.position[0].hypot(self.position[1]);
+        let share = 0.5 * gap / eccentricity;
+        if cause != Outcome::NoSolution || self.retreats >= LARGEST_RETREATS || share.is_nan() {
+            return false;
+        }
+        self.retreats += 1;
+        self.previous = None;
+        self.backtracks = 0;
+        for value in &mut self.position[..2] {
+            *value *= (1.0 - share).clamp(0.0, 1.0);
+        }
         true
     }
 
@@ -483,9 +540,11 @@ impl Newton {
         self.previous = Some((self.position, step, residual));
         self.position = add(self.position, 1.0, step);
         self.backtracks = 0;
+        self.settling = 0;
     }
 
-    /// The best iterate, with the film updated there once more.
+    /// The best iterate, with the film updated there once more. It has no solution where the way to one
+    /// led to films without.
     fn given_up(
         self,
         film: &mut dyn FilmForce,
@@ -512,7 +571,11 @@ impl Newton {
             residual,
             table: self.table,
             film_updates: self.film_updates + 1,
-            outcome: self.cause,
+            outcome: if self.met_limit && self.cause == Outcome::NotConverged {
+                Outcome::NoSolution
+            } else {
+                self.cause
+            },
         })
     }
 }

@@ -111,6 +111,27 @@ pub fn find_equilibrium(
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
 ) -> Result<Equilibrium, FilmError> {
+    search_from(film, bearing, request, conditions, None)
+}
+
+/// [`find_equilibrium`] next to one that was found: without a probe of the film elsewhere.
+pub(crate) fn find_beside(
+    film: &mut dyn FilmForce,
+    bearing: &Bearing,
+    request: &EquilibriumRequest,
+    conditions: &Conditions<'_>,
+    found: &Equilibrium,
+) -> Result<Equilibrium, FilmError> {
+    search_from(film, bearing, request, conditions, Some(found))
+}
+
+fn search_from(
+    film: &mut dyn FilmForce,
+    bearing: &Bearing,
+    request: &EquilibriumRequest,
+    conditions: &Conditions<'_>,
+    beside: Option<&Equilibrium>,
+) -> Result<Equilibrium, FilmError> {
     let mut search = Search {
         balance: Balance {
             load: request.load,
@@ -131,9 +152,12 @@ pub fn find_equilibrium(
         clearance: bearing.radial_clearance,
         conditions,
     };
-    let start = match search.start(film, request)? {
-        Start::At(start) => start,
-        Start::Nowhere(outcome) => return Ok(search.failed(film, outcome)),
+    let start = match beside {
+        Some(found) if search.balance.force_scale > 0.0 => coordinates(&found.state),
+        _ => match search.start(film, request)? {
+            Start::At(start) => start,
+            Start::Nowhere(outcome) => return Ok(search.failed(film, outcome)),
+        },
     };
     let mut found = search
         .balance

@@ -92,16 +92,21 @@ impl PressedShell {
     /// By how much an interference (m) at the joint narrows the bore's radius, m.
     fn contraction(&self, radius: f64, interference: f64) -> f64 {
         let joint = radius + self.thickness;
-        let (inner, middle, outer) = (radius.powi(2), joint.powi(2), self.housing_radius.powi(2));
+        let (inner, middle) = (radius.powi(2), joint.powi(2));
         let shell = joint / self.modulus * ((middle + inner) / (middle - inner) - self.poisson);
-        let housing = joint / self.housing_modulus
-            * ((outer + middle) / (outer - middle) + self.housing_poisson);
-        let pressure = interference / (shell + housing);
+        let pressure = interference / (shell + self.housing_growth(joint));
         2.0 * pressure * middle * radius / (self.modulus * (middle - inner))
+    }
+
+    /// By how much the housing's inner radius `joint` (m) grows under pressure there, m/Pa.
+    fn housing_growth(&self, joint: f64) -> f64 {
+        let (inner, outer) = (joint.powi(2), self.housing_radius.powi(2));
+        joint / self.housing_modulus * ((outer + inner) / (outer - inner) + self.housing_poisson)
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 mod tests {
     use super::*;
 
@@ -166,6 +171,36 @@ mod tests {
         let loose = |rise: f64| expansion.bore_growth(radius, rise);
         let slope = (loose(402.0) - loose(400.0)) / 2.0;
         assert!((slope / (STEEL * radius) - 1.0).abs() < 1e-9);
+    }
+
+    /// Rows of `validation/elastic-layer/ring.csv`: plane stress as it is, plane strain by its constants.
+    #[test]
+    fn the_housing_grows_under_the_pressure_of_its_joint_as_lame_has_it() {
+        let table = include_str!("../../../validation/elastic-layer/ring.csv");
+        let rows = table.lines().filter(|line| !line.starts_with('#')).skip(1);
+        let mut read = 0;
+        for row in rows {
+            let cells: Vec<f64> = row.split(',').map(|c| c.parse().unwrap()).collect();
+            let (joint, modulus, poisson) = (1e-3 * cells[0], 1e9 * cells[3], cells[4]);
+            let growth = |housing_modulus: f64, housing_poisson: f64| {
+                let shell = PressedShell {
+                    housing_radius: 1e-3 * cells[1],
+                    housing_modulus,
+                    housing_poisson,
+                    ..pressed(0.0)
+                };
+                1e6 * 1e6 * cells[2] * shell.housing_growth(joint)
+            };
+            let stress = growth(modulus, poisson);
+            let strain = growth(
+                modulus / (1.0 - poisson * poisson),
+                poisson / (1.0 - poisson),
+            );
+            assert!((stress - cells[5]).abs() < 5e-4, "{row}: {stress}");
+            assert!((strain - cells[6]).abs() < 5e-4, "{row}: {strain}");
+            read += 1;
+        }
+        assert_eq!(read, 1);
     }
 
     /// Lame's ring (reference: bore 100 mm, 149.5 mm outside, 200 GPa, 0.3) under pressure on its OUTSIDE

@@ -5,10 +5,11 @@
 //! ([`sommerfeld_film::energy`]).
 //! Unknowns: position and tilt of the journal; temperature (K) of every cell and feed.
 //! Method: the equilibrium and the energy equation in turn; each round moves the temperatures by a share
-//! of their change, because a warmer film makes less heat, so that a whole change goes too far. Ends where
-//! no temperature changes by more than the tolerance.
+//! of their change, because a warmer film makes less heat, so that a whole change goes too far. The share
+//! falls where changes grow, and comes back. The journal is found to less while temperatures still move. Ends
+//! where no temperature changes by more than the tolerance.
 
-use crate::equilibrium::{Equilibrium, EquilibriumRequest, find_equilibrium};
+use crate::equilibrium::{Equilibrium, EquilibriumRequest, find_beside, find_equilibrium};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::{Bearing, Conditions, FilmError, FilmForce, Outcome, Surroundings, Warmed};
 
@@ -45,8 +46,25 @@ pub struct WarmEquilibrium {
     pub outcome: Outcome,
 }
 
-/// The share of a change that a film whose heat falls with its temperature can take at first.
-const FIRST_SHARE: f64 = 0.6;
+/// Largest share: what a film whose heat falls with its temperature can take.
+const FIRST_SHARE: f64 = 0.5;
+/// Smallest share.
+const LEAST_SHARE: f64 = 0.1;
+/// Changes above so many tolerances are followed with a journal found to these limits.
+const COARSE_CHANGES: f64 = 100.0;
+const COARSE_RESIDUAL: f64 = 1e-6;
+const COARSE_STEP: f64 = 1e-4;
+
+/// Share of the next round, from that of the last one and the ratio of its change to the one before. A
+/// change that grew was overshot; those of the first rounds, in which the ruptured film moves, may do so too,
+/// so that the share comes back.
+fn next_share(share: f64, ratio: f64) -> f64 {
+    if ratio > 1.1 {
+        (0.6 * share).max(LEAST_SHARE)
+    } else {
+        (1.3 * share).min(FIRST_SHARE)
+    }
+}
 
 /// Finds the equilibrium in the film's own temperatures.
 ///
@@ -73,6 +91,7 @@ pub fn warm_equilibrium(
         film_updates: 0,
         outcome: Outcome::NotConverged,
     };
+    let exact = request.settings;
     let mut share = FIRST_SHARE;
     for _ in 0..settings.round_limit {
         found.film_updates += found.rest.film_updates;
@@ -87,20 +106,22 @@ pub fn warm_equilibrium(
         };
         found.warmed = warmed;
         if let Some(before) = found.changes.last() {
-            // A change that has the size of the one before was overshot or barely moved.
-            let ratio = warmed.change / before;
-            if ratio > 0.7 {
-                share = (0.6 * share).max(0.05);
-            }
+            share = next_share(share, warmed.change / before);
         }
+        let still_moves = warmed.change > COARSE_CHANGES * settings.tolerance;
         found.changes.push(warmed.change);
         if warmed.change <= settings.tolerance {
             found.outcome = Outcome::Converged;
             return Ok(found);
         }
-        request.start = Some(found.rest.state.position);
+        if still_moves {
+            request.settings.residual_tolerance = exact.residual_tolerance.max(COARSE_RESIDUAL);
+            request.settings.step_tolerance = exact.step_tolerance.max(COARSE_STEP);
+        } else {
+            request.settings = exact;
+        }
         request.frame.tilt = found.rest.state.tilt;
-        found.rest = find_equilibrium(film, bearing, &request, conditions)?;
+        found.rest = find_beside(film, bearing, &request, conditions, &found.rest)?;
     }
     Ok(found)
 }

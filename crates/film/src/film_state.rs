@@ -204,22 +204,54 @@ impl FilmState {
             return;
         }
         let unit = self.units.pressure;
+        let is_soft = !self.expansion.displacement.is_empty();
         self.stiffened.resize(self.pressure.len(), [0.0, 1.0]);
-        for (stiffened, reduced) in self.stiffened.iter_mut().zip(&self.pressure) {
-            *stiffened = match self.reduced.pressure(reduced * unit) {
-                Some((pressure, slope)) => [pressure / unit, slope],
-                None => {
+        let mut held_back = Vec::new();
+        for k in 0..self.pressure.len() {
+            let full = self.reduced.pressure(self.pressure[k] * unit);
+            let held = is_soft.then(|| self.held_back(k, full)).flatten();
+            let (pressure, slope) = match (held, full) {
+                (Some((at, pressure, slope)), _) => {
+                    held_back.push((k, at));
+                    (pressure, slope)
+                }
+                (None, Some(full)) => full,
+                (None, None) => {
                     self.exceeds_limit = true;
-                    let (pressure, slope) = self.reduced.highest();
-                    [pressure / unit, slope]
+                    self.reduced.highest()
                 }
             };
+            self.stiffened[k] = [pressure / unit, slope];
         }
         if !self.expansion.is_linear() {
             self.move_expansion();
             let pressure = closure.equation_pressure(&self.solution, &self.pressure);
             self.expansion.pressure.copy_from_slice(pressure);
         }
+        self.is_bending |= !held_back.is_empty();
+        for (k, at) in held_back {
+            self.expansion.pressure[k] = at;
+        }
+    }
+
+    /// Where the pressure of a cell rises to far more than the slope of the last one foretold, or beyond
+    /// the limit: what the slope foretold, with reduced pressure (1/s), pressure (Pa) and slope there. A soft
+    /// shell would make way for a pressure that it never gets, and leave the film without one.
+    fn held_back(&self, k: usize, full: Option<(f64, f64)>) -> Option<(f64, f64, f64)> {
+        const MOST: f64 = 1.5;
+        let unit = self.units.pressure;
+        let [last, slope] = self.stiffened[k];
+        let rise = self.pressure[k] - self.expansion.pressure[k].max(0.0);
+        if rise <= 0.0 {
+            return None;
+        }
+        let foretold = (last.max(0.0) + slope * rise) * unit;
+        if full.is_some_and(|(pressure, _)| pressure <= MOST * foretold) {
+            return None;
+        }
+        let reduced = self.reduced.reduced(foretold);
+        let (pressure, slope) = self.reduced.pressure(reduced)?;
+        Some((reduced / unit, pressure, slope))
     }
 
     /// Density and displacement at the new pressures.
@@ -373,6 +405,18 @@ impl FilmState {
             self.refine_lines(closure);
         }
         self.solution.iter().all(|x| x.is_finite())
+    }
+
+    /// Forgets the linearisation of density and displacement that left no solution: it would leave none
+    /// anywhere else either.
+    pub(crate) fn start_anew(&mut self) {
+        if self.expansion.is_linear() {
+            return;
+        }
+        self.pressure.fill(0.0);
+        self.solution.fill(0.0);
+        self.expansion.forget();
+        self.stiffened.fill([0.0, 1.0]);
     }
 
     /// The same on the balances of feeds behind lines.

@@ -49,6 +49,14 @@ impl Expansion {
         self.density.is_empty() && self.displacement.is_empty()
     }
 
+    /// Goes back to a full film without pressure.
+    pub(crate) fn forget(&mut self) {
+        self.pressure.fill(0.0);
+        self.content.fill(1.0);
+        self.density.fill([1.0, 0.0]);
+        self.displacement.fill([0.0; 2]);
+    }
+
     /// Opens the gap by the displacement; around a ring, or between two ends.
     pub fn open(&self, gap: &mut Gap, n_axial: usize, ends: EndOpening, is_ring: bool) {
         if self.displacement.is_empty() {

@@ -46,6 +46,8 @@ pub struct Passage {
     pub pressing: Vec<f64>,
     /// Viscosity over that at low shear and the film's temperature, per cell, at cavitation pressure.
     pub viscosity: Vec<f64>,
+    /// Fluidity at low shear over that at the film's temperature, per cell; 1 without a field.
+    fluidity: Vec<f64>,
 }
 
 /// What surrounds the gap at an instant.
@@ -92,7 +94,8 @@ impl Passage {
             rate: cells.clone(),
             shearing: vec![[0.0; 2]; n * m],
             pressing: around,
-            viscosity: cells,
+            viscosity: cells.clone(),
+            fluidity: cells,
         })
     }
 
@@ -164,6 +167,7 @@ impl Passage {
             } else {
                 1.0
             };
+            self.fluidity[k] = 1.0 / warm;
             self.viscosity[k] = warm * self.thinned(state, mean, temperature).0;
         }
     }
@@ -173,11 +177,10 @@ impl Passage {
         let Some(field) = state.field else {
             return (1.0, state.temperature);
         };
-        let reference = state.oil.viscosity(state.temperature, 0.0).value;
         let (mut count, mut fluidity, mut temperature) = (0.0, 0.0, 0.0);
         for cell in cells.into_iter().flatten() {
             count += 1.0;
-            fluidity += reference / state.oil.viscosity(field[cell], 0.0).value;
+            fluidity += self.fluidity[cell];
             temperature += field[cell];
         }
         (fluidity / count, temperature / count)

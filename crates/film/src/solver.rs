@@ -282,6 +282,7 @@ impl FilmSolver {
         let local = self.frame.to_grid(state, turned);
         self.film.iterations += 1;
         if !self.film.solve(self.closure.as_ref()) {
+            self.film.start_anew();
             return Linearised::without_film(Outcome::NoSolution);
         }
         self.film.account_feeds(&self.bearing, self.extent);

@@ -7,7 +7,7 @@
 
 mod common;
 
-use common::{big_end, conditions, feed_hole, oil};
+use common::{big_end, conditions, feed_hole, oil, reference_rows};
 use sommerfeld_film::cavitation::{CavitationModel, FilmSet, Reynolds};
 use sommerfeld_film::gap::Gap;
 use sommerfeld_film::linear::{RingFactor, RingMatrix};
@@ -276,8 +276,18 @@ fn compressed_oil_is_conserved() {
 /// along it (reference: `validation/elastic-layer`).
 #[test]
 fn a_channel_on_columns_has_its_closed_form() {
-    let (h0, k, p0, length, eta) = (10e-6, 1.384_615e-12, 20e6, 30e-3, 10e-3);
-    let solve = |n: usize| {
+    let rows = reference_rows("elastic-layer", "channel.csv");
+    let [row] = rows.as_slice() else {
+        panic!("one row, not {}", rows.len());
+    };
+    let (h0, k, p0, length, eta) = (
+        1e-6 * row[0],
+        row[1],
+        1e6 * row[2],
+        1e-3 * row[3],
+        1e-3 * row[4],
+    );
+    let solve = |n: usize, k: f64| {
         let faces: Vec<f64> = (0..=n).map(|i| i as f64 / n as f64).collect();
         let grid = Grid::from_faces(faces, vec![0.0, 1.0]);
         let unit = 12.0 * eta * (length / h0) * (length / h0);
@@ -331,9 +341,11 @@ fn a_channel_on_columns_has_its_closed_form() {
         let middle = 0.5 * (x[n / 2 - 1] + x[n / 2]) * unit;
         [flow * h0 * length, middle]
     };
-    let exact = [1.007_307_9e-4, 15.6971e6];
+    let exact = [row[5], 1e6 * row[6]];
+    let [rigid, _] = solve(512, 0.0);
+    assert!((rigid - row[7]).abs() < 5e-11, "{rigid}");
     let errors = [128, 512].map(|n| {
-        let found = solve(n);
+        let found = solve(n, k);
         [0, 1].map(|i| (found[i] / exact[i] - 1.0).abs())
     });
     println!("{errors:?}");
