@@ -5,7 +5,7 @@ use crate::bearing::{Bearing, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet};
 use crate::energy::HeatAccount;
 use crate::feed_lines::FeedLines;
-use crate::force::{Conditions, FeedFlow, Reaction, Step};
+use crate::force::{Conditions, FeedFlow, FilmField, Reaction, Step};
 use crate::gap::Gap;
 use crate::grid::Grid;
 use crate::heat::FilmHeat;
@@ -92,11 +92,29 @@ pub(crate) struct FilmState {
 pub(crate) struct Fields {
     pub(crate) angles: Vec<f64>,
     pub(crate) axial: Vec<f64>,
+    angle_widths: Vec<f64>,
+    axial_widths: Vec<f64>,
     pub(crate) pressure: Vec<f64>,
     pub(crate) film_fraction: Vec<f64>,
     pub(crate) film_thickness: Vec<f64>,
     pub(crate) temperature: Vec<f64>,
     pub(crate) contact_pressure: Vec<f64>,
+}
+
+impl Fields {
+    pub(crate) fn view(&self) -> FilmField<'_> {
+        FilmField {
+            angles: &self.angles,
+            axial: &self.axial,
+            angle_widths: &self.angle_widths,
+            axial_widths: &self.axial_widths,
+            pressure: &self.pressure,
+            film_fraction: &self.film_fraction,
+            film_thickness: &self.film_thickness,
+            temperature: &self.temperature,
+            contact_pressure: &self.contact_pressure,
+        }
+    }
 }
 
 impl FilmState {
@@ -110,6 +128,9 @@ impl FilmState {
         let solved: Vec<f64> = grid.axial.iter().map(|z| z * bearing.radius()).collect();
         let axial = extent.unfold_axial(&solved);
         let all = vec![0.0; n * axial.len()];
+        let mut axial_widths = vec![0.0; axial.len()];
+        let width = |j: usize| grid.axial_widths[j] * bearing.radius();
+        extent.unfold(m, width, &mut axial_widths);
         let matrix = RingMatrix::new(n, m, bearing.inlet == Inlet::Cyclic);
         let zero = vec![0.0; n * m];
         let around = Around::Periodic;
@@ -163,6 +184,8 @@ impl FilmState {
             fields: Fields {
                 angles: grid.around.clone(),
                 axial,
+                angle_widths: grid.around_widths.clone(),
+                axial_widths,
                 pressure: all.clone(),
                 film_fraction: all.clone(),
                 film_thickness: all,
