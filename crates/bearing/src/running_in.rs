@@ -59,6 +59,18 @@ pub struct WornCycle {
     pub outcome: Outcome,
 }
 
+impl WornCycle {
+    /// A cycle that was not solved, and how it ended.
+    #[must_use]
+    pub fn not_solved(outcome: Outcome) -> Self {
+        Self {
+            on_shell: WearMap::default(),
+            contact_share: f64::NAN,
+            outcome,
+        }
+    }
+}
+
 /// One step of running-in.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RunningInStep {
@@ -89,6 +101,19 @@ pub enum RunningInEnd {
     StepLimit,
     /// A cycle was not solved.
     NotSolved(Outcome),
+}
+
+impl RunningInEnd {
+    /// The word for it in results: `settled`, `time-over`, ...
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Settled => "settled",
+            Self::TimeOver => "time-over",
+            Self::StepLimit => "step-limit",
+            Self::NotSolved(_) => "not-solved",
+        }
+    }
 }
 
 /// A shell that has run in.

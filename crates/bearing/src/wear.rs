@@ -32,7 +32,7 @@ pub fn sliding_speed(radius: f64, state: &JournalState) -> f64 {
 
 /// What contact and pressure have done to one surface: cell `i` around, `j` along the axis, at
 /// `i * axial.len() + j`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct WearMap {
     /// Centres of the cells around, rad, from +X of the surface.
     pub angles: Vec<f64>,

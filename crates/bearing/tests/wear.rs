@@ -85,7 +85,7 @@ fn tilted(bearing: &Bearing) -> Result<WornCycle, FilmError> {
     let mut film = FilmSolver::new(bearing, &oil, [48, 16])?;
     let frame = JournalState {
         journal_speed: 60.0,
-        tilt: [1.0e-3, 0.0],
+        tilt: [3e-4, 0.0],
         ..JournalState::default()
     };
     let request = EquilibriumRequest {
@@ -120,17 +120,15 @@ fn a_tilted_journal_runs_its_edge_in() {
         ..RunningIn::of(COEFFICIENT, 3.0 * 3600.0, SIGMA)
     };
     let ran = run_in(&bearing, &settings, tilted).unwrap();
-    for step in &ran.steps {
-        eprintln!("{step:?}");
-    }
     assert_eq!(ran.end, RunningInEnd::TimeOver);
     let total: f64 = ran.steps.iter().map(|step| step.duration).sum();
     assert!((total / settings.duration - 1.0).abs() < 1e-12);
     for pair in ran.steps.windows(2) {
         assert!(pair[1].contact_share < pair[0].contact_share, "{pair:?}");
+        assert!(pair[1].deepest_rate < pair[0].deepest_rate, "{pair:?}");
     }
     let (first, last) = (ran.steps[0], *ran.steps.last().unwrap());
-    assert!(first.contact_share > 0.1 && last.contact_share < 0.2 * first.contact_share);
+    assert!(first.contact_share > 0.02 && last.contact_share < 0.2 * first.contact_share);
     let worn = ran.depth.iter().enumerate();
     let (deepest, depth) = worn.max_by(|a, b| a.1.total_cmp(b.1)).unwrap();
     assert!(*depth > SIGMA, "{depth}");

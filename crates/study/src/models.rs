@@ -4,7 +4,8 @@
 //! file. A DOI stands here only where it is known for certain.
 
 use serde::Serialize;
-use sommerfeld_film::{Bearing, Cavitation, FilmShear, Inlet};
+use sommerfeld_film::{Bearing, Cavitation, ContactLaw, Elasticity, FilmShear, Finish, Inlet};
+use sommerfeld_oil::{CompressionLaw, Lubricant, PressureLaw, ShearThinning, ViscosityLaw};
 
 /// One model: what it is and where it is published.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -21,7 +22,7 @@ pub struct Model {
     pub doi: Option<&'static str>,
 }
 
-/// Every model, in the order of reports: film, cavitation, inlet, shear, viscosity.
+/// Every model, in the order of reports: film, cavitation, inlet, shear, oil, surfaces, shell, heat.
 pub const MODELS: &[Model] = &[
     Model {
         family: "film",
@@ -142,6 +143,90 @@ pub const MODELS: &[Model] = &[
         doi: None,
     },
     Model {
+        family: "viscosity_pressure",
+        name: "barus",
+        description: "Viscosity grows exponentially with pressure",
+        reference: "Barus, C. (1893): Isothermals, isopiestics and isometrics relative to viscosity. American Journal of Science 45, 87-96",
+        doi: None,
+    },
+    Model {
+        family: "viscosity_pressure",
+        name: "roelands",
+        description: "Viscosity over pressure, growth slowing at high pressure",
+        reference: "Roelands, C. J. A. (1966): Correlational aspects of the viscosity-temperature-pressure relationship of lubricating oils. TU Delft",
+        doi: None,
+    },
+    Model {
+        family: "shear_thinning",
+        name: "cross",
+        description: "Viscosity falls with the shear rate to a second plateau",
+        reference: "Cross, M. M. (1965). Journal of Colloid Science 20, 417-437",
+        doi: None,
+    },
+    Model {
+        family: "shear_thinning",
+        name: "carreau",
+        description: "Viscosity falls with the shear rate to a second plateau by a power law",
+        reference: "Carreau, P. J. (1972). Transactions of the Society of Rheology 16, 99-127",
+        doi: None,
+    },
+    Model {
+        family: "density_pressure",
+        name: "dowson-higginson",
+        description: "Density over pressure, fit to mineral oils",
+        reference: "Dowson, D., Higginson, G. R. (1966): Elasto-hydrodynamic Lubrication. Pergamon",
+        doi: None,
+    },
+    Model {
+        family: "density_pressure",
+        name: "limit-1.34",
+        description: "Density over pressure, up to 1.34 times that at ambient pressure",
+        reference: "Venner, C. H., Lubrecht, A. A. (2000): Multilevel Methods in Lubrication. Elsevier",
+        doi: None,
+    },
+    Model {
+        family: "density_pressure",
+        name: "bulk-modulus",
+        description: "Density over pressure with a constant bulk modulus",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "surface",
+        name: "patir-cheng",
+        description: "Flow between rough surfaces by flow and shear factors",
+        reference: "Patir, N., Cheng, H. S. (1978). J. Lubr. Technol. 100, 12-17; Wu, C., Zheng, L. (1989). J. Tribol. 111, 188 (contact factor)",
+        doi: None,
+    },
+    Model {
+        family: "contact",
+        name: "greenwood-tripp",
+        description: "Elastic contact of asperities of Gaussian height",
+        reference: "Greenwood, J. A., Tripp, J. H. (1970). Proc. Instn Mech. Engrs 185, 625-633",
+        doi: None,
+    },
+    Model {
+        family: "contact",
+        name: "table",
+        description: "Contact pressure over the gap as given",
+        reference: "",
+        doi: None,
+    },
+    Model {
+        family: "shell",
+        name: "layer",
+        description: "Thin elastic layer on a rigid backing: each place moves by its own pressure",
+        reference: "Johnson, K. L. (1985): Contact Mechanics, ch. 5.8. Cambridge University Press",
+        doi: None,
+    },
+    Model {
+        family: "heat",
+        name: "balance",
+        description: "One effective temperature, at which power equals heat carried away",
+        reference: "ISO 7902-1: Hydrodynamic plain journal bearings under steady-state conditions, calculation",
+        doi: None,
+    },
+    Model {
         family: "extrapolation",
         name: "richardson",
         description: "Integrals extrapolated from the full and half the axial cells, second order",
@@ -169,7 +254,7 @@ pub fn find(family: &str, name: &str) -> Option<Model> {
         .copied()
 }
 
-/// The models that the rules of a bearing choose: cavitation, inlet and shear of the ruptured film.
+/// The models that a bearing chooses: cavitation, inlet and shear of the ruptured film, surfaces, shell.
 #[must_use]
 pub fn of_bearing(bearing: &Bearing) -> Vec<Model> {
     let cavitation: &[&str] = match bearing.cavitation {
@@ -189,6 +274,60 @@ pub fn of_bearing(bearing: &Bearing) -> Vec<Model> {
         .iter()
         .map(|name| ("cavitation", *name))
         .chain([("inlet", inlet), ("film_shear", shear)])
+        .chain(surface_and_shell(bearing))
+        .filter_map(|(family, name)| find(family, name))
+        .collect()
+}
+
+/// Family and name of what its surfaces and shell do.
+fn surface_and_shell(bearing: &Bearing) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let (surface, contact) = match &bearing.finish {
+        Finish::Smooth => (None, None),
+        Finish::Rough(rough) => (
+            Some(("surface", "patir-cheng")),
+            match rough.contact {
+                ContactLaw::None => None,
+                ContactLaw::GreenwoodTripp(_) => Some(("contact", "greenwood-tripp")),
+                ContactLaw::Table(_) => Some(("contact", "table")),
+            },
+        ),
+    };
+    let shell = match bearing.elasticity {
+        Elasticity::Rigid => None,
+        Elasticity::Layer { .. } => Some(("shell", "layer")),
+    };
+    [surface, contact, shell].into_iter().flatten()
+}
+
+/// The laws of an oil over temperature, and where `is_field` says that the film follows them, over
+/// pressure and shear.
+#[must_use]
+pub fn of_oil(oil: &Lubricant, is_field: bool) -> Vec<Model> {
+    let viscosity = match oil.viscosity {
+        ViscosityLaw::Constant { .. } => "constant",
+        ViscosityLaw::Vogel { .. } => "vogel",
+        ViscosityLaw::AstmD341 { .. } => "astm-d341",
+    };
+    let pressure = match oil.viscosity_pressure {
+        PressureLaw::None => None,
+        PressureLaw::Barus { .. } => Some(("viscosity_pressure", "barus")),
+        PressureLaw::Roelands { .. } => Some(("viscosity_pressure", "roelands")),
+    };
+    let shear = match oil.shear_thinning {
+        ShearThinning::None => None,
+        ShearThinning::Cross { .. } => Some(("shear_thinning", "cross")),
+        ShearThinning::Carreau { .. } => Some(("shear_thinning", "carreau")),
+    };
+    let density = match oil.density_pressure {
+        CompressionLaw::None => None,
+        CompressionLaw::DowsonHigginson => Some(("density_pressure", "dowson-higginson")),
+        CompressionLaw::Limit134 => Some(("density_pressure", "limit-1.34")),
+        CompressionLaw::BulkModulus { .. } => Some(("density_pressure", "bulk-modulus")),
+    };
+    let of_field = [pressure, shear, density].into_iter().flatten();
+    [("viscosity", viscosity)]
+        .into_iter()
+        .chain(of_field.filter(|_| is_field))
         .filter_map(|(family, name)| find(family, name))
         .collect()
 }

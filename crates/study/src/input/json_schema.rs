@@ -146,7 +146,10 @@ fn quantity(dimension: Dimension) -> Value {
     let units: Vec<String> = dimension
         .units()
         .iter()
-        .map(|unit| unit.replace('.', "[. ]"))
+        .map(|unit| {
+            let unit = unit.replace('.', "[. ]");
+            unit.replace('(', r"\(").replace(')', r"\)")
+        })
         .collect();
     let pattern = format!(
         r"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*({})\s*$",

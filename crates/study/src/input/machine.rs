@@ -1,5 +1,7 @@
 //! A checked machine: an engine or a shaft with its bearings and speeds, in SI.
 
+use super::heat::HeatPlan;
+use super::wear::WearPlan;
 use sommerfeld_bearing::PressureCycle;
 use sommerfeld_engine::{
     CrankTrain, Drilling, Gas, GeneralShaft, HoleSupply, Mains, PinFit, Role, TorsionalChain,
@@ -17,8 +19,12 @@ pub struct MachinePlan {
     pub bearings: Vec<MachineBearing>,
     /// The oil of all bearings.
     pub lubricant: Lubricant,
-    /// Temperature of the films, K.
+    /// Temperature of the films, K; their first guess where heat is balanced.
     pub temperature: f64,
+    /// Where the temperature of the films comes from.
+    pub heat: HeatPlan,
+    /// What wears, where it is asked for.
+    pub wear: Option<WearPlan>,
     /// Speeds of the crankshaft or shaft, rad/s, in the order of the file.
     pub speeds: Vec<f64>,
     /// How the orbits are computed.

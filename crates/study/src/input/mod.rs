@@ -4,11 +4,13 @@
 //! SI; `read` walks the TOML; `check` looks at what no single key can tell; [`load_study`] joins them.
 
 mod check;
+mod contact_file;
 mod csv_table;
 pub mod diagram_file;
 mod error;
 mod explain;
 mod files;
+mod heat;
 mod json_schema;
 mod keys;
 pub mod load_file;
@@ -21,10 +23,12 @@ mod sweep;
 pub mod units;
 mod values;
 mod vary;
+mod wear;
 
 pub use error::{InputError, InputErrors, MessageKind, Place, render_all};
 pub use explain::{explain, list_keys};
 pub use files::{load_study, study_from_text};
+pub use heat::{HeatPlan, Wall};
 pub use json_schema::json_schema;
 pub use keys::KEYS;
 pub use machine::{EnginePlan, Machine, MachineBearing, MachinePlan, OrbitPlan};
@@ -33,3 +37,4 @@ pub use study::{
     SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,
 };
 pub use sweep::{Keep, KeyStep, SweepMode, SweepPlan, VariedKey, VariedValue};
+pub use wear::{RunningInPlan, WearPlan};

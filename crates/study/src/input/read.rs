@@ -238,12 +238,6 @@ impl<'t> Reading<'t> {
             (Kind::Limit(dimension, range), DeValue::Table(table)) => {
                 self.limit(key, &span, table, dimension, range)
             }
-            (Kind::Table, DeValue::String(_)) if key.path == "oil" => {
-                let error = self.error(&span, "").of_key(key.path);
-                self.errors
-                    .push(not_built(error, "an oil by its name in the library"));
-                None
-            }
             (_, plain) => match plain_value(key, plain) {
                 Ok(read) => Some(read),
                 Err(refusal) => {

@@ -289,6 +289,24 @@ pub fn nearest_word(words: &[&'static str], text: &str) -> Option<&'static str> 
         .map(|(_, word)| word)
 }
 
+/// The words that are near enough to be meant, the nearest first: slips of the pen, then words that
+/// hold the text or are held by it.
+#[must_use]
+pub fn nearest_of<'w>(words: &[&'w str], text: &str) -> Vec<&'w str> {
+    const MOST: usize = 3;
+    let text = text.trim().to_lowercase();
+    let mut near: Vec<(usize, &str)> = words
+        .iter()
+        .map(|&word| (edit_distance(word, &text), word))
+        .filter(|&(distance, word)| {
+            let overlaps = !text.is_empty() && (word.contains(&text) || text.contains(word));
+            distance <= slip(&text) || overlaps
+        })
+        .collect();
+    near.sort_by_key(|&(distance, _)| distance);
+    near.into_iter().take(MOST).map(|(_, word)| word).collect()
+}
+
 /// Fewest insertions, deletions and replacements of letters between two words (Levenshtein).
 fn edit_distance(a: &str, b: &str) -> usize {
     // Longer words cannot be near any key, and the product of the lengths is the work.

@@ -1,8 +1,10 @@
 //! A checked study: everything a run needs, in SI, with nothing left to doubt.
 
 use super::error::InputError;
+use super::heat::HeatPlan;
 use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
+use super::wear::WearPlan;
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
@@ -102,8 +104,12 @@ pub struct BearingCase {
     pub bearing: Bearing,
     /// The oil.
     pub lubricant: Lubricant,
-    /// Temperature of the film, K.
+    /// Temperature of the film, K; its first guess where heat is balanced.
     pub temperature: f64,
+    /// Where the temperature of the film comes from.
+    pub heat: HeatPlan,
+    /// What wears, where it is asked for.
+    pub wear: Option<WearPlan>,
     /// What the bearing has to do.
     pub duty: Duty,
 }

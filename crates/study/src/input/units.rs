@@ -58,6 +58,26 @@ pub enum Dimension {
     SectionStiffness,
     /// J
     Energy,
+    /// 1/Pa: how a logarithm follows the pressure
+    PressureCoefficient,
+    /// 1/K: how a length or volume follows the temperature
+    ThermalExpansion,
+    /// J/(kg K)
+    HeatCapacity,
+    /// J/(kg K2): how the heat capacity follows the temperature
+    HeatCapacitySlope,
+    /// W/(m K)
+    Conductivity,
+    /// W/(m K2): how the conductivity follows the temperature
+    ConductivitySlope,
+    /// W/K: heat per difference of temperatures
+    Conductance,
+    /// W/(m2 K)
+    HeatTransfer,
+    /// 1/Pa: volume worn per load and sliding distance
+    WearCoefficient,
+    /// s
+    Time,
 }
 
 /// One unit: name, factor to SI and the SI value of its zero.
@@ -147,6 +167,24 @@ const TORSIONAL_STIFFNESS: &[Unit] = &[
 const TORSIONAL_DAMPING: &[Unit] = &[("N.m.s/rad", 1.0, 0.0)];
 const SECTION_STIFFNESS: &[Unit] = &[("N.m2", 1.0, 0.0), ("kN.m2", 1e3, 0.0), ("MN.m2", 1e6, 0.0)];
 const ENERGY: &[Unit] = &[("J", 1.0, 0.0), ("kJ", 1e3, 0.0)];
+const PRESSURE_COEFFICIENT: &[Unit] = &[
+    ("1/Pa", 1.0, 0.0),
+    ("1/GPa", 1e-9, 0.0),
+    ("1/MPa", 1e-6, 0.0),
+];
+const THERMAL_EXPANSION: &[Unit] = &[("1/K", 1.0, 0.0)];
+const HEAT_CAPACITY: &[Unit] = &[("J/(kg.K)", 1.0, 0.0), ("kJ/(kg.K)", 1e3, 0.0)];
+const HEAT_CAPACITY_SLOPE: &[Unit] = &[("J/(kg.K2)", 1.0, 0.0)];
+const CONDUCTIVITY: &[Unit] = &[("W/(m.K)", 1.0, 0.0)];
+const CONDUCTIVITY_SLOPE: &[Unit] = &[("W/(m.K2)", 1.0, 0.0)];
+const CONDUCTANCE: &[Unit] = &[("W/K", 1.0, 0.0)];
+const HEAT_TRANSFER: &[Unit] = &[("W/(m2.K)", 1.0, 0.0), ("kW/(m2.K)", 1e3, 0.0)];
+const WEAR_COEFFICIENT: &[Unit] = &[
+    ("1/Pa", 1.0, 0.0),
+    ("m2/N", 1.0, 0.0),
+    ("mm3/(N.m)", 1e-9, 0.0),
+];
+const TIME: &[Unit] = &[("h", 3600.0, 0.0), ("min", 60.0, 0.0), ("s", 1.0, 0.0)];
 
 /// All dimensions, to look up what a foreign unit measures.
 const DIMENSIONS: &[Dimension] = &[
@@ -173,6 +211,16 @@ const DIMENSIONS: &[Dimension] = &[
     Dimension::TorsionalDamping,
     Dimension::SectionStiffness,
     Dimension::Energy,
+    Dimension::PressureCoefficient,
+    Dimension::ThermalExpansion,
+    Dimension::HeatCapacity,
+    Dimension::HeatCapacitySlope,
+    Dimension::Conductivity,
+    Dimension::ConductivitySlope,
+    Dimension::Conductance,
+    Dimension::HeatTransfer,
+    Dimension::WearCoefficient,
+    Dimension::Time,
 ];
 
 impl Dimension {
@@ -204,6 +252,16 @@ impl Dimension {
             Self::TorsionalDamping => "torsional damping",
             Self::SectionStiffness => "section stiffness",
             Self::Energy => "energy",
+            Self::PressureCoefficient => "pressure coefficient",
+            Self::ThermalExpansion => "thermal expansion",
+            Self::HeatCapacity => "heat capacity",
+            Self::HeatCapacitySlope => "heat capacity per temperature",
+            Self::Conductivity => "conductivity",
+            Self::ConductivitySlope => "conductivity per temperature",
+            Self::Conductance => "heat conductance",
+            Self::HeatTransfer => "heat transfer coefficient",
+            Self::WearCoefficient => "wear coefficient",
+            Self::Time => "time",
         }
     }
 
@@ -233,6 +291,16 @@ impl Dimension {
             Self::TorsionalDamping => TORSIONAL_DAMPING,
             Self::SectionStiffness => SECTION_STIFFNESS,
             Self::Energy => ENERGY,
+            Self::PressureCoefficient => PRESSURE_COEFFICIENT,
+            Self::ThermalExpansion => THERMAL_EXPANSION,
+            Self::HeatCapacity => HEAT_CAPACITY,
+            Self::HeatCapacitySlope => HEAT_CAPACITY_SLOPE,
+            Self::Conductivity => CONDUCTIVITY,
+            Self::ConductivitySlope => CONDUCTIVITY_SLOPE,
+            Self::Conductance => CONDUCTANCE,
+            Self::HeatTransfer => HEAT_TRANSFER,
+            Self::WearCoefficient => WEAR_COEFFICIENT,
+            Self::Time => TIME,
         }
     }
 
@@ -266,6 +334,14 @@ impl Dimension {
             ("n/m2", "Pa"),
             ("n.s/m2", "Pa.s"),
             ("ns/m2", "Pa.s"),
+            ("j/kgk", "J/(kg.K)"),
+            ("j/kg.k", "J/(kg.K)"),
+            ("j/kg/k", "J/(kg.K)"),
+            ("w/mk", "W/(m.K)"),
+            ("w/m.k", "W/(m.K)"),
+            ("w/m/k", "W/(m.K)"),
+            ("w/m2k", "W/(m2.K)"),
+            ("w/m2.k", "W/(m2.K)"),
         ];
         let letters = normalised(unit).to_lowercase();
         let known = |name: &str| self.table().iter().find(|known| known.0 == name);
@@ -536,6 +612,14 @@ mod tests {
             ("2 bar.s/cm3", Dimension::FlowResistance, 2e11),
             ("1 bar min/l", Dimension::FlowResistance, 6e9),
             (".5 1/s", Dimension::Rate, 0.5),
+            ("9.5e-9 1/Pa", Dimension::PressureCoefficient, 9.5e-9),
+            ("9.5 1/GPa", Dimension::PressureCoefficient, 9.5e-9),
+            ("2 kJ/(kg K)", Dimension::HeatCapacity, 2000.0),
+            ("0.14 W/(m*K)", Dimension::Conductivity, 0.14),
+            ("5 W/(m\u{b2} K)", Dimension::HeatTransfer, 5.0),
+            ("1e-16 m2/N", Dimension::WearCoefficient, 1e-16),
+            ("2e-7 mm3/(N m)", Dimension::WearCoefficient, 2e-16),
+            ("10 h", Dimension::Time, 36_000.0),
         ];
         for (text, dimension, value) in cases {
             let read = parse(text, dimension).unwrap();

@@ -169,11 +169,22 @@ const CYCLE_COLUMNS: &[CycleColumn] = &[
     ("side_flow_rear[m3/s]", |p, _| p.summary.side_flow[1]),
 ];
 
+/// The columns that follow where asperities can touch.
+const CONTACT_COLUMNS: &[CycleColumn] = &[
+    ("contact_load[N]", |p, _| p.summary.contact_load),
+    ("peak_contact_pressure[Pa]", |p, _| {
+        p.summary.peak_contact_pressure.value
+    }),
+    ("boundary_power[W]", |p, _| p.summary.boundary_power),
+];
+
 /// Headers and values of the columns of the cycle table that hold numbers.
 pub(super) fn cycle_columns(cycle: &CycleResults) -> Vec<(String, Vec<f64>)> {
     let points = &cycle.orbit.points;
     let clearance = cycle.bearing.radial_clearance;
-    let fixed = CYCLE_COLUMNS.iter().map(|(name, value)| {
+    let contact = cycle.bearing.finish.has_contact();
+    let contact = CONTACT_COLUMNS.iter().filter(|_| contact);
+    let fixed = CYCLE_COLUMNS.iter().chain(contact).map(|(name, value)| {
         let values = points.iter().map(|point| value(point, clearance));
         ((*name).to_owned(), values.collect())
     });

@@ -10,9 +10,9 @@ use crate::models::Model;
 use crate::oil_holes::{OilHole, oil_holes};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{
-    Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, PROGRAM,
-    Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load, stability_name,
-    status_name,
+    Body, CycleResults, DimensionlessResults, Dynamics, Header, HeatResults, InstantCoefficients,
+    PROGRAM, Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load,
+    stability_name, status_name,
 };
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
@@ -57,6 +57,9 @@ pub fn summary(results: &Results) -> Value {
     if let Value::Object(body) = body {
         object.extend(body);
     }
+    if let Some(heat) = &results.header.heat {
+        object.extend(heat_keys(heat));
+    }
     if let Some(grid) = results.header.grid {
         object.insert("grid".into(), json!(grid));
     }
@@ -68,6 +71,39 @@ pub fn summary(results: &Results) -> Value {
         object.insert("limits".into(), Value::Array(limits));
     }
     Value::Object(object)
+}
+
+/// The temperature that the heat of the film led to.
+fn heat_keys(heat: &HeatResults) -> Map<String, Value> {
+    let celsius = |kelvin: f64| json!(kelvin - 273.15);
+    let trials: Vec<Value> = heat.trials.iter().copied().map(celsius).collect();
+    let keys = [
+        (
+            "effective_temperature_degc",
+            celsius(heat.effective_temperature),
+        ),
+        ("supply_temperature_degc", celsius(heat.supply_temperature)),
+        ("outlet_temperature_degc", celsius(heat.outlet_temperature)),
+        ("conducted_heat_w", json!(heat.conducted)),
+        (
+            "warm_diametral_clearance_m",
+            json!(2.0 * heat.radial_clearance),
+        ),
+        ("heat_balance_trials_degc", Value::Array(trials)),
+    ];
+    keys.map(|(key, value)| (key.to_owned(), value))
+        .into_iter()
+        .collect()
+}
+
+/// What asperities carry and lose, of a load (N); `boundary` and `total` are powers, W.
+fn contact_keys(peak: Option<f64>, contact: f64, load: f64, boundary: f64, total: f64) -> Value {
+    json!({
+        "peak_contact_pressure_pa": peak,
+        "contact_load_share": contact / load,
+        "boundary_power_w": boundary,
+        "viscous_power_w": total - boundary,
+    })
 }
 
 /// The first speed at the top, every speed in a list of its own.
@@ -139,6 +175,13 @@ fn bearing_keys(bearing: &BearingResults, limits: &[LimitCheck]) -> Value {
         keys["limits"] = checks.map(|check| limit(&check)).collect();
     }
     keys
+}
+
+fn as_map(value: Value) -> Map<String, Value> {
+    match value {
+        Value::Object(map) => map,
+        _ => Map::new(),
+    }
 }
 
 fn header(header: &Header) -> Map<String, Value> {
@@ -228,6 +271,17 @@ fn steady_keys(steady: &SteadyResults) -> Value {
         if let Some(value) = value {
             keys[key] = value;
         }
+    }
+    if let (true, Value::Object(keys)) = (steady.bearing.finish.has_contact(), &mut keys) {
+        let carried = steady.load.unwrap_or_else(|| steady.reaction.force());
+        let contact = contact_keys(
+            Some(summary.peak_contact_pressure.value),
+            summary.contact_load,
+            magnitude(carried),
+            summary.boundary_power,
+            summary.power_loss(),
+        );
+        keys.extend(as_map(contact));
     }
     let [front, rear] = summary.edge_film_thickness;
     keys["minimum_edge_film_front_m"] = json!(front);
@@ -376,8 +430,56 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         "mass_balance_relative": worst(|summary| summary.mass_balance_relative),
         "complementarity_violation": worst(|summary| summary.complementarity_violation),
     });
+    if let (true, Value::Object(keys)) = (cycle.bearing.finish.has_contact(), &mut keys) {
+        let contact = cycle.largest(|point| point.summary.peak_contact_pressure.value);
+        keys.extend(as_map(contact_keys(
+            contact.map(|p| p.summary.peak_contact_pressure.value),
+            cycle.mean(|p| p.summary.contact_load),
+            cycle.mean(|p| magnitude(p.load)),
+            cycle.mean(|p| p.summary.boundary_power),
+            cycle.mean(|p| p.summary.power_loss()),
+        )));
+        let angle = contact.map(|p| degrees(p.crank_angle));
+        keys.insert("peak_contact_pressure_angle_deg".into(), json!(angle));
+    }
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(wear_keys(cycle));
+    }
     if !cycle.coefficients.is_empty() {
         keys["coefficients"] = cycle.coefficients.iter().map(instant).collect();
+    }
+    keys
+}
+
+/// Wear of the shell, largest friction energy and pressure times speed of both surfaces.
+fn wear_keys(cycle: &CycleResults) -> Map<String, Value> {
+    let mut keys = Map::new();
+    let fields = cycle.fields.as_ref();
+    if let Some(wear) = fields.and_then(|fields| fields.on_shell.wear.as_ref()) {
+        let largest = |values: &[f64]| values.iter().copied().reduce(f64::max);
+        let deepest = wear.deepest_per_hour();
+        let all = [
+            ("wear_depth_per_hour_m", deepest.map(|d| d.value)),
+            ("wear_depth_angle_deg", deepest.map(|d| degrees(d.angle))),
+            ("wear_depth_position_m", deepest.map(|d| d.axial)),
+            ("wear_volume_per_hour_m3", wear.volume_per_hour()),
+            (
+                "peak_pressure_velocity_w_m2",
+                largest(&wear.map.peak_pressure_velocity),
+            ),
+            ("friction_energy_j_m2", largest(&wear.friction_energy())),
+        ];
+        keys.extend(all.map(|(key, value)| (key.to_owned(), json!(value))));
+    }
+    if let Some(ran) = &cycle.running_in {
+        let deepest = ran.depth.iter().copied().reduce(f64::max);
+        keys.insert("running_in_time_s".into(), json!(ran.time));
+        keys.insert("running_in_end".into(), json!(ran.end.name()));
+        keys.insert("running_in_depth_m".into(), json!(deepest));
+        keys.insert(
+            "running_in_steps".into(),
+            json!(ran.steps.len().saturating_sub(1)),
+        );
     }
     keys
 }

@@ -200,6 +200,7 @@ fn own_header(header: &Header, bearing: &BearingResults) -> Header {
         error: None,
         grid: header.grid,
         limits,
+        heat: None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! A load cycle: the orbit, and what its points do not hold.
 
 use super::record::FieldRecorder;
+use super::running_in;
 use super::{
     ProgressCallback, conditions, film_of, note_edge_contact, note_outcome, with_reynolds_number,
 };
@@ -31,7 +32,18 @@ pub(super) fn solve_cycle(
         case.bearing.cavitation_pressure,
         spool,
     );
-    let solved = bearing_cycle(case, duty, settings, recorder, progress)?;
+    let ran_in = running_in::ran_in(case, duty, settings, progress)?;
+    let worn = ran_in.as_ref().map(|ran| BearingCase {
+        bearing: ran.bearing.clone(),
+        ..case.clone()
+    });
+    let case = worn.as_ref().unwrap_or(case);
+    let recorder = recorder.with_wear(case, duty);
+    let mut solved = bearing_cycle(case, duty, settings, recorder, progress)?;
+    if let Some(ran) = &ran_in {
+        running_in::note(ran, header);
+    }
+    solved.results.running_in = ran_in;
     note_outcome(solved.results.orbit.outcome, header);
     if let Some((crank_angle, edge)) = solved.edge_contact {
         let at = format!("at crank angle {:.1} deg", crank_angle.to_degrees());
@@ -74,6 +86,7 @@ pub(super) fn without_orbit(bearing: &Bearing, outcome: Outcome) -> CycleResults
         feed_flows: Vec::new(),
         fields: None,
         coefficients: Vec::new(),
+        running_in: None,
     }
 }
 
@@ -234,6 +247,7 @@ impl<'a> CycleWatch<'a> {
                 feed_flows,
                 fields: fields.next(),
                 coefficients,
+                running_in: None,
             },
             turned: fields.collect(),
         }

@@ -3,15 +3,18 @@
 mod accuracy;
 mod crew;
 mod cycle;
+mod heat;
 mod inputs;
 mod machine;
 mod record;
+mod running_in;
 mod steady;
 mod sweep;
 mod turn;
 
 use crate::input::{
-    BearingCase, Duty, FilmModel, FilmSettings, StoredInstants, Study, Subject, TiltCondition,
+    BearingCase, Duty, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
+    TiltCondition,
 };
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
@@ -30,7 +33,6 @@ use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
     MobilityFilm, Outcome, ShortBearingFilm,
 };
-use sommerfeld_oil::{Lubricant, ViscosityLaw};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -259,15 +261,39 @@ fn solve_once(
             return solve_machine(study, plan, RunOptions::default(), progress);
         }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
-        Subject::Bearing(case) => match &case.duty {
-            Duty::State(state) => solve_state(case, state, &study.film, &mut header)?,
-            Duty::Load(load) => solve_load(case, load, study, &mut header, progress)?,
-            Duty::Cycle(duty) => {
-                solve_cycle(case, duty, &study.film, &mut header, spool, progress)?
+        Subject::Bearing(case) => match &case.heat {
+            HeatPlan::Given => solve_bearing(case, study, &mut header, spool, progress)?,
+            HeatPlan::Balance { path, expansion } => {
+                let heat = (path, expansion.as_ref());
+                let warm = heat::balanced(case, heat, study, progress)?;
+                let body = solve_bearing(&warm.case, study, &mut header, spool, progress)?;
+                warm.note(&mut header);
+                body
             }
+            HeatPlan::Field { .. } => return Err(NO_HEAT_FIELD.into()),
         },
     };
     Ok(Results { header, body })
+}
+
+/// Studies that ask for it are refused when they are read.
+const NO_HEAT_FIELD: FilmError = FilmError::Unsupported {
+    reason: "heat.model = \"field\" is not built yet",
+};
+
+/// A bearing at the temperature of its case.
+fn solve_bearing(
+    case: &BearingCase,
+    study: &Study,
+    header: &mut Header,
+    spool: Option<&mut FieldSpool>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Body, FilmError> {
+    match &case.duty {
+        Duty::State(state) => solve_state(case, state, &study.film, header),
+        Duty::Load(load) => solve_load(case, load, study, header, progress),
+        Duty::Cycle(duty) => solve_cycle(case, duty, &study.film, header, spool, progress),
+    }
 }
 
 fn limits(study: &Study) -> Vec<Limit> {
@@ -298,6 +324,7 @@ fn header(study: &Study) -> Header {
         error: None,
         grid: study.film.model.is_field().then_some(study.film.grid),
         limits: Vec::new(),
+        heat: None,
     }
 }
 
@@ -314,19 +341,12 @@ fn models_of(study: &Study) -> Vec<Model> {
             if study.film.model.is_field() {
                 used.extend(models::of_bearing(&case.bearing));
             }
-            used.extend(models::find("viscosity", viscosity_law(&case.lubricant)));
+            let is_field = study.film.model.is_field();
+            used.extend(models::of_oil(&case.lubricant, is_field));
+            used.extend(models::find("heat", case.heat.name()));
         }
     }
     used
-}
-
-/// As in the study file.
-fn viscosity_law(lubricant: &Lubricant) -> &'static str {
-    match lubricant.viscosity {
-        ViscosityLaw::Constant { .. } => "constant",
-        ViscosityLaw::Vogel { .. } => "vogel",
-        ViscosityLaw::AstmD341 { .. } => "astm-d341",
-    }
 }
 
 /// Whether the journal cannot tilt in this duty.

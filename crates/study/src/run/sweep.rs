@@ -399,6 +399,7 @@ fn header(study: &Study, plan: &SweepPlan, models: Vec<Model>, sweep: &SweepResu
         error: None,
         grid: None,
         limits: Vec::new(),
+        heat: None,
     }
 }
 

@@ -9,7 +9,7 @@ use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet, Shape};
 use sommerfeld_oil::Lubricant;
 use sommerfeld_study::Study;
 use sommerfeld_study::input::{
-    Analysis, EnginePlan, FilmModel, FilmSettings, LinearSolver, Machine, MachineBearing,
+    Analysis, EnginePlan, FilmModel, FilmSettings, HeatPlan, LinearSolver, Machine, MachineBearing,
     MachinePlan, OrbitPlan, Rotor, StudyLimit, Subject,
 };
 use std::f64::consts::PI;
@@ -121,6 +121,7 @@ pub fn inline_plan(firing_order: &[usize], speeds: &[f64]) -> MachinePlan {
         bearings: bearings.collect(),
         lubricant: Lubricant::constant(0.010, 850.0),
         temperature: 373.15,
+        heat: HeatPlan::Given,
         speeds: speeds.iter().map(|rpm| rpm * RPM).collect(),
         orbit: OrbitPlan {
             crank_step: PI / 180.0,

@@ -3,8 +3,7 @@
 use super::Checker;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
-use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet, Shape};
-use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
+use sommerfeld_film::{Bearing, Cavitation, Elasticity, Ends, FilmShear, Finish, Inlet, Shape};
 use std::ops::Range;
 
 /// Relative clearances outside this range are more often a slip of the unit than a bearing.
@@ -40,13 +39,15 @@ impl Checker<'_> {
             inlet: rules.as_ref()?.inlet,
             cavitation: rules.as_ref()?.cavitation,
             film_shear: rules.as_ref()?.film_shear,
-            finish: sommerfeld_film::Finish::Smooth,
-            elasticity: sommerfeld_film::Elasticity::Rigid,
+            finish: Finish::Smooth,
+            elasticity: Elasticity::Rigid,
         };
         self.check_pressures(&bearing);
         self.check_inlet(&bearing);
         bearing.feeds = self.feeds(&bearing);
+        let (finish, elasticity) = (self.finish(), self.elasticity());
         (bearing.bore, bearing.journal) = self.shapes(&bearing)?;
+        (bearing.finish, bearing.elasticity) = (finish?, elasticity?);
         self.check_shapes(&bearing)?;
         Some(bearing)
     }
@@ -261,85 +262,5 @@ impl Checker<'_> {
             let note = self.reading.error(&span, message).of_key("bearing.groove");
             self.warnings.push(note.hinting("use model = \"field\""));
         }
-    }
-
-    /// The oil, with its laws checked at the temperature of the film.
-    pub(super) fn lubricant(&mut self, temperature: f64) -> Option<Lubricant> {
-        let density = match self.value("oil.density")? {
-            Value::Number(density) => density,
-            _ => self.number("oil.density.value")?,
-        };
-        let viscosity = match self.value("oil.viscosity")? {
-            Value::Number(viscosity) => ViscosityLaw::Constant { viscosity },
-            _ => self.viscosity_law()?,
-        };
-        let lubricant = Lubricant::newtonian(viscosity, DensityLaw::Constant { density });
-        if let Err(error) = lubricant.check() {
-            let error = self.error_at("oil.viscosity", format!("the oil is none: {error}"));
-            self.errors.push(error);
-            return None;
-        }
-        let viscosity = lubricant.viscosity(temperature, 0.0).value;
-        let is_below_pole =
-            matches!(lubricant.viscosity, ViscosityLaw::Vogel { c, .. } if temperature + c <= 0.0);
-        if is_below_pole || !(1e-6..=1e3).contains(&viscosity) {
-            let message = format!(
-                "the viscosity is {viscosity:.3e} Pa.s at the film temperature of {:.1} degC",
-                temperature - 273.15
-            );
-            let error = self
-                .error_at("oil.viscosity", message)
-                .allowing("at least 0.001 mPa.s, at most 1000 Pa.s");
-            self.errors.push(match lubricant.viscosity {
-                ViscosityLaw::Vogel { .. } => error
-                    .hinting("for vogel, b and c are in K and T in K: c = (c for degC) - 273.15"),
-                _ => error.hinting("is the unit right? 1 mPa.s is the viscosity of water"),
-            });
-            return None;
-        }
-        Some(lubricant)
-    }
-
-    fn viscosity_law(&mut self) -> Option<ViscosityLaw> {
-        let law = self.text("oil.viscosity.law")?;
-        let (own, foreign): (&[&str], &[&str]) = match law.as_str() {
-            "vogel" => (&["a", "b", "c"], &["kv40", "kv100"]),
-            _ => (&["kv40", "kv100"], &["a", "b", "c"]),
-        };
-        let path = |name: &str| format!("oil.viscosity.{name}");
-        let mut errors = Vec::new();
-        for name in own
-            .iter()
-            .filter(|name| !self.reading.was_given(&path(name)))
-        {
-            let message = format!("the law {law} needs `{name}`");
-            errors.push(
-                self.error_at("oil.viscosity.law", message)
-                    .allowing(own.join(", ")),
-            );
-        }
-        for name in foreign
-            .iter()
-            .filter(|name| self.reading.was_given(&path(name)))
-        {
-            let message = format!("the law {law} has no `{name}`");
-            errors.push(self.error_at(&path(name), message).allowing(own.join(", ")));
-        }
-        if !errors.is_empty() {
-            self.errors.extend(errors);
-            return None;
-        }
-        let number = |name: &str| self.number(&path(name));
-        Some(match law.as_str() {
-            "vogel" => ViscosityLaw::Vogel {
-                a: number("a")?,
-                b: number("b")?,
-                c: number("c")?,
-            },
-            _ => ViscosityLaw::AstmD341 {
-                kv40: number("kv40")?,
-                kv100: number("kv100")?,
-            },
-        })
     }
 }

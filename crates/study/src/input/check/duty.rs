@@ -36,8 +36,10 @@ impl Checker<'_> {
             return None;
         }
         let bearing = self.bearing();
+        let heat = self.heat(bearing.as_ref());
+        let wear = bearing.as_ref().and_then(|b| self.wear(std::iter::once(b)));
         let temperature = self.number("oil.temperature");
-        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature));
+        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature, &heat));
         let duty = match self.mode {
             Mode::Film => self.journal_state(bearing.as_ref()).map(Duty::State),
             Mode::LoadCycle => self.load_cycle(bearing.as_ref()).map(Duty::Cycle),
@@ -47,6 +49,8 @@ impl Checker<'_> {
             bearing: bearing?,
             lubricant: lubricant?,
             temperature: temperature?,
+            heat: heat?,
+            wear: wear?,
             duty: duty?,
         })))
     }

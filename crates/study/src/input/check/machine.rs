@@ -18,8 +18,9 @@ const ASYMMETRY: f64 = 1e-4;
 impl Checker<'_> {
     /// The machine; `None` where an error says why not.
     pub(super) fn machine(&mut self) -> Option<Subject> {
+        let heat = self.heat(None);
         let temperature = self.number("oil.temperature");
-        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature));
+        let lubricant = temperature.and_then(|temperature| self.lubricant(temperature, &heat));
         let section = match self.mode {
             Mode::Engine => "engine",
             _ => "shaft",
@@ -35,11 +36,14 @@ impl Checker<'_> {
             _ => self.shaft(),
         };
         let (machine, bearings) = found?;
+        let wear = self.wear(bearings.iter().map(|b| &b.bearing));
         Some(Subject::Machine(Box::new(MachinePlan {
             machine,
             bearings,
             lubricant: lubricant?,
             temperature: temperature?,
+            heat: heat?,
+            wear: wear?,
             speeds,
             orbit: orbit?,
         })))

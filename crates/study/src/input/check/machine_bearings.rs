@@ -15,6 +15,19 @@ const NUMBERS: &str = "bearing.numbers";
 const DIAMETRAL: &str = "bearing.diametral_clearance";
 const RELATIVE: &str = "bearing.relative_clearance";
 const GROOVE: &str = "bearing.groove";
+const CONTACT_LAW: &str = "bearing.surface.contact.law";
+const CONTACT_KEYS: &[&str] = &[
+    "bearing.surface.contact.factor",
+    "bearing.surface.contact.asperity_product",
+    "bearing.surface.contact.modulus",
+    "bearing.surface.contact.file",
+];
+const ELASTIC: &str = "bearing.shell.elastic";
+const SHELL_KEYS: &[&str] = &[
+    "bearing.shell.thickness",
+    "bearing.shell.modulus",
+    "bearing.shell.poisson",
+];
 
 /// Bearings of one kind that a machine has.
 #[derive(Debug, Clone, Copy)]
@@ -332,6 +345,12 @@ fn merged(general: &BearingTable, table: &BearingTable) -> BearingTable {
     for (given, other) in [(DIAMETRAL, RELATIVE), (RELATIVE, DIAMETRAL)] {
         if table.entries.contains_key(given) {
             merged.entries.remove(other);
+        }
+    }
+    for (law, keys) in [(CONTACT_LAW, CONTACT_KEYS), (ELASTIC, SHELL_KEYS)] {
+        // Another law has none of the keys of the general one.
+        if table.entries.contains_key(law) {
+            merged.entries.retain(|key, _| !keys.contains(key));
         }
     }
     merged.entries.extend(

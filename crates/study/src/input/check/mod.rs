@@ -8,12 +8,16 @@ mod duty;
 mod engine;
 mod gas;
 mod grooves;
+mod heat;
 mod machine;
 mod machine_bearings;
+mod oil;
 mod shaft;
 mod shapes;
+mod surface;
 mod sweep;
 mod torsion;
+mod wear;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};
@@ -377,6 +381,30 @@ impl Checker<'_> {
         }
     }
 
+    /// Whether a law has the keys it needs and none that belong to another law of its section.
+    fn law_keys(&mut self, section: &str, law: &str, keys: LawKeys<'_>) -> bool {
+        let path = |name: &str| format!("{section}.{name}");
+        let given = |name: &&&str| self.reading.was_given(&path(name));
+        let mut errors = Vec::new();
+        for name in keys.needed.iter().filter(|name| !given(name)) {
+            let message = format!("the law {law} needs `{name}`");
+            let error = self.error_at(&path("law"), message);
+            errors.push(error.allowing(keys.needed.join(", ")));
+        }
+        for name in keys.foreign.iter().filter(given) {
+            let message = format!("the law {law} has no `{name}`");
+            let error = self.error_at(&path(name), message);
+            errors.push(if keys.needed.is_empty() {
+                error.hinting("take it out")
+            } else {
+                error.allowing(keys.needed.join(", "))
+            });
+        }
+        let are_right = errors.is_empty();
+        self.errors.extend(errors);
+        are_right
+    }
+
     fn film_model(&self) -> Option<FilmModel> {
         match self.text("film.model")?.as_str() {
             "field" => Some(FilmModel::Field),
@@ -452,6 +480,14 @@ impl Checker<'_> {
             })
             .collect()
     }
+}
+
+/// Keys of a law beside its name.
+struct LawKeys<'k> {
+    /// It cannot do without.
+    needed: &'k [&'k str],
+    /// They belong to other laws of the section.
+    foreign: &'k [&'k str],
 }
 
 /// A table that a study names.

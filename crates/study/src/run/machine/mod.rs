@@ -12,9 +12,7 @@ mod pin;
 mod speeds;
 mod units;
 
-use super::{
-    ProgressCallback, RunError, RunOptions, RunSummary, finish_results, header, viscosity_law,
-};
+use super::{ProgressCallback, RunError, RunOptions, RunSummary, finish_results, header};
 use crate::input::{FilmSettings, Machine, MachinePlan, Study};
 use crate::ledger::{Ledger, LedgerStudy};
 use crate::models::{self, Model};
@@ -210,6 +208,6 @@ pub(super) fn models_of_machine(plan: &MachinePlan, settings: &FilmSettings) -> 
             );
         }
     }
-    used.extend(models::find("viscosity", viscosity_law(&plan.lubricant)));
+    used.extend(models::of_oil(&plan.lubricant, settings.model.is_field()));
     used
 }
