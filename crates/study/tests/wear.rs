@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use sommerfeld_study::input::{Study, study_from_text};
-use sommerfeld_study::output::json;
+use sommerfeld_study::output::summary;
 use sommerfeld_study::results::{Body, CycleResults, Results};
 use sommerfeld_study::solve;
 use std::f64::consts::PI;
@@ -89,7 +89,7 @@ fn wear_over_a_cycle_is_that_of_its_contact_load() {
     let boundary = boundary / points.len() as f64;
     assert!((boundary / (0.08 * power) - 1.0).abs() < 1e-10);
 
-    let keys = json::summary(&results);
+    let keys = summary(&results);
     let number = |key: &str| {
         keys[key]
             .as_f64()
@@ -139,7 +139,7 @@ fn a_shell_that_ran_in_touches_less() {
         (rate / last.deepest_rate - 1.0).abs() < 1e-9,
         "{rate} {last:?}"
     );
-    let keys = json::summary(&results);
+    let keys = summary(&results);
     assert_eq!(keys["running_in_end"], "time-over");
 }
 
