@@ -105,42 +105,26 @@ fn wear_over_a_cycle_is_that_of_its_contact_load() {
     assert!(journal.coefficient.is_none() && journal.depth_per_hour().is_none());
 }
 
-/// Running-in takes the asked time in its steps and leaves less contact behind.
+/// Running-in that uses its steps up says so, and the results are those of the worn bearing.
 #[test]
-fn a_shell_that_ran_in_touches_less() {
-    let text = BIG_END.replace("1e-16 m2/N", "1e-15 m2/N")
-        + "running_in = { hours = \"8 h\", settled_below = 0.0, step_depth = 0.3 }\n";
+fn a_shell_that_ran_in_wears_slower() {
+    let text = BIG_END.replace("[48, 8]", "[32, 4]")
+        + "running_in = { hours = \"8000 h\", steps = 1, settled_below = 0.0 }\n";
     let results = solved(&text);
+    assert!(results.header.messages[0].contains("its steps were used up"));
     let cycle = cycle(&results);
     let ran = cycle.running_in.as_ref().unwrap();
-    assert!(
-        results
-            .header
-            .messages
-            .iter()
-            .all(|m| !m.contains("ran in"))
-    );
-    assert_eq!(ran.time, 28_800.0);
     let (first, last) = (ran.steps[0], *ran.steps.last().unwrap());
-    assert!(ran.steps.len() > 2, "{:?}", ran.steps);
+    assert_eq!(ran.steps.len(), 2, "{:?}", ran.steps);
+    assert_eq!(ran.time, first.duration);
     assert!(last.deepest_rate < first.deepest_rate, "{first:?} {last:?}");
-    assert!(!cycle.bearing.bore.is_cylindrical());
-    // The results are those of the worn bearing: the last row of the steps.
-    let wear = cycle
-        .fields
-        .as_ref()
-        .unwrap()
-        .on_shell
-        .wear
-        .as_ref()
-        .unwrap();
-    let rate = wear.deepest_per_hour().unwrap().value / 3600.0;
+    let wear = cycle.fields.as_ref().unwrap().on_shell.wear.as_ref();
+    let rate = wear.unwrap().deepest_per_hour().unwrap().value / 3600.0;
     assert!(
         (rate / last.deepest_rate - 1.0).abs() < 1e-9,
         "{rate} {last:?}"
     );
-    let keys = summary(&results);
-    assert_eq!(keys["running_in_end"], "time-over");
+    assert_eq!(summary(&results)["running_in_end"], "step-limit");
 }
 
 #[test]
