@@ -12,11 +12,13 @@ pub mod heat_field;
 pub mod load_cycle;
 pub mod motion;
 pub mod orbit;
+pub mod running_in;
 pub mod stability;
 pub mod stability_chart;
 mod step_control;
 mod supply_cycle;
 mod time_step;
+pub mod wear;
 
 pub use balance::IterationRow;
 pub use coefficients::{Coefficients, instant_coefficients};
@@ -31,7 +33,9 @@ pub use load_cycle::{
 pub use orbit::{
     CycleHeat, Observer, OrbitSettings, OrbitStart, Progress, WarmOrbit, journal_orbit, warm_orbit,
 };
+pub use running_in::{RanIn, RunningIn, RunningInEnd, RunningInStep, WornCycle, run_in};
 pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
 pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};
 pub use step_control::Substeps;
 pub use supply_cycle::SupplyCycle;
+pub use wear::{CycleWear, WearMap, WearRecord};

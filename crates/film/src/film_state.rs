@@ -5,7 +5,7 @@ use crate::bearing::{Bearing, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet};
 use crate::energy::HeatAccount;
 use crate::feed_lines::FeedLines;
-use crate::force::{Conditions, FeedFlow, Reaction, Step};
+use crate::force::{Conditions, FeedFlow, FilmField, Reaction, Step};
 use crate::gap::Gap;
 use crate::grid::Grid;
 use crate::heat::FilmHeat;
@@ -19,6 +19,8 @@ use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Around, Axial, Cell, Operator};
 use crate::settling::Settling;
 use sommerfeld_oil::{CompressionLaw, Lubricant};
+
+mod expansion;
 
 /// Flow below this share of the largest is round-off of the direct solution.
 const ROUND_OFF: f64 = 1e-12;
@@ -92,11 +94,29 @@ pub(crate) struct FilmState {
 pub(crate) struct Fields {
     pub(crate) angles: Vec<f64>,
     pub(crate) axial: Vec<f64>,
+    angle_widths: Vec<f64>,
+    axial_widths: Vec<f64>,
     pub(crate) pressure: Vec<f64>,
     pub(crate) film_fraction: Vec<f64>,
     pub(crate) film_thickness: Vec<f64>,
     pub(crate) temperature: Vec<f64>,
     pub(crate) contact_pressure: Vec<f64>,
+}
+
+impl Fields {
+    pub(crate) fn view(&self) -> FilmField<'_> {
+        FilmField {
+            angles: &self.angles,
+            axial: &self.axial,
+            angle_widths: &self.angle_widths,
+            axial_widths: &self.axial_widths,
+            pressure: &self.pressure,
+            film_fraction: &self.film_fraction,
+            film_thickness: &self.film_thickness,
+            temperature: &self.temperature,
+            contact_pressure: &self.contact_pressure,
+        }
+    }
 }
 
 impl FilmState {
@@ -110,6 +130,9 @@ impl FilmState {
         let solved: Vec<f64> = grid.axial.iter().map(|z| z * bearing.radius()).collect();
         let axial = extent.unfold_axial(&solved);
         let all = vec![0.0; n * axial.len()];
+        let mut axial_widths = vec![0.0; axial.len()];
+        let width = |j: usize| grid.axial_widths[j] * bearing.radius();
+        extent.unfold(m, width, &mut axial_widths);
         let matrix = RingMatrix::new(n, m, bearing.inlet == Inlet::Cyclic);
         let zero = vec![0.0; n * m];
         let around = Around::Periodic;
@@ -163,6 +186,8 @@ impl FilmState {
             fields: Fields {
                 angles: grid.around.clone(),
                 axial,
+                angle_widths: grid.around_widths.clone(),
+                axial_widths,
                 pressure: all.clone(),
                 film_fraction: all.clone(),
                 film_thickness: all,
@@ -191,137 +216,6 @@ impl FilmState {
         for (contact, height) in self.contact.iter_mut().zip(nominal) {
             let pressure = bearing.finish.contact_pressure(height * clearance);
             *contact = [pressure.value / unit, pressure.by_gap * clearance / unit];
-        }
-    }
-
-    /// What the new solution makes of pressure, density and displacement, the place about which the next
-    /// one is linearised.
-    fn expand(&mut self, closure: &dyn CavitationModel) {
-        self.exceeds_limit = false;
-        self.is_bending = false;
-        if self.reduced == ReducedPressure::Same && self.expansion.is_linear() {
-            self.stiffened.clear();
-            return;
-        }
-        let unit = self.units.pressure;
-        let is_soft = !self.expansion.displacement.is_empty();
-        self.stiffened.resize(self.pressure.len(), [0.0, 1.0]);
-        let mut held_back = Vec::new();
-        for k in 0..self.pressure.len() {
-            let full = self.reduced.pressure(self.pressure[k] * unit);
-            let held = is_soft.then(|| self.held_back(k, full)).flatten();
-            let (pressure, slope) = match (held, full) {
-                (Some((at, pressure, slope)), _) => {
-                    held_back.push((k, at));
-                    (pressure, slope)
-                }
-                (None, Some(full)) => full,
-                (None, None) => {
-                    self.exceeds_limit = true;
-                    self.reduced.highest()
-                }
-            };
-            self.stiffened[k] = [pressure / unit, slope];
-        }
-        if !self.expansion.is_linear() {
-            self.move_expansion();
-            let pressure = closure.equation_pressure(&self.solution, &self.pressure);
-            self.expansion.pressure.copy_from_slice(pressure);
-        }
-        self.is_bending |= !held_back.is_empty();
-        for (k, at) in held_back {
-            self.expansion.pressure[k] = at;
-        }
-    }
-
-    /// Where the pressure of a cell rises to far more than the slope of the last one foretold, or beyond
-    /// the limit: what the slope foretold, with reduced pressure (1/s), pressure (Pa) and slope there. A soft
-    /// shell would make way for a pressure that it never gets, and leave the film without one.
-    fn held_back(&self, k: usize, full: Option<(f64, f64)>) -> Option<(f64, f64, f64)> {
-        const MOST: f64 = 1.5;
-        let unit = self.units.pressure;
-        let [last, slope] = self.stiffened[k];
-        let rise = self.pressure[k] - self.expansion.pressure[k].max(0.0);
-        if rise <= 0.0 {
-            return None;
-        }
-        let foretold = (last.max(0.0) + slope * rise) * unit;
-        if full.is_some_and(|(pressure, _)| pressure <= MOST * foretold) {
-            return None;
-        }
-        let reduced = self.reduced.reduced(foretold);
-        let (pressure, slope) = self.reduced.pressure(reduced)?;
-        Some((reduced / unit, pressure, slope))
-    }
-
-    /// Density and displacement at the new pressures.
-    fn move_expansion(&mut self) {
-        const ROUND_OFF: f64 = 1e-9;
-        let unit = self.units.pressure;
-        for k in 0..self.pressure.len() {
-            let [pressure, slope] = self.stiffened[k];
-            let change = self.pressure[k] - self.expansion.pressure[k].max(0.0);
-            let mut content = self.film_fraction[k];
-            if let Some(density) = self.expansion.density.get_mut(k) {
-                let is_full = self.set.cells[k] == Cell::Full;
-                let next = if is_full {
-                    let (factor, by_pressure) = self.compression.factor(pressure * unit);
-                    [factor, by_pressure * unit * slope]
-                } else {
-                    [1.0, 0.0]
-                };
-                let linear = density[0] + density[1] * change;
-                self.is_bending |= is_full && (next[0] - linear).abs() > ROUND_OFF;
-                *density = next;
-                content *= next[0];
-            }
-            if let Some(displacement) = self.expansion.displacement.get_mut(k) {
-                let compliance = self.compliance * unit / self.units.clearance;
-                let contact = self.contact.get(k).map_or([0.0; 2], |contact| *contact);
-                let fed = self.set.cells[k] == Cell::Fed;
-                let next = if fed {
-                    0.0
-                } else {
-                    compliance * (pressure.max(0.0) + contact[0])
-                };
-                let height = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height)[k];
-                // A step that opens the gap by more than it is has left what its slopes are good for.
-                let most = 0.5 * height.abs().max(displacement[0].abs()).max(1e-3);
-                let moved = (next - displacement[0]).clamp(-most, most);
-                self.is_bending |= moved.abs() > ROUND_OFF * height.abs().max(1e-3);
-                // A pressure that was cut does not move the shell.
-                let slope = if fed || pressure <= 0.0 {
-                    0.0
-                } else {
-                    compliance * slope
-                };
-                *displacement = [displacement[0] + moved, slope];
-            }
-            self.expansion.content[k] = content;
-        }
-    }
-
-    /// Displacement at the boundaries, over the clearance.
-    pub(crate) fn end_opening(&self, bearing: &Bearing) -> EndOpening {
-        let of = |pressure: f64| {
-            let above = (pressure - bearing.cavitation_pressure).max(0.0);
-            self.compliance * above / self.units.clearance
-        };
-        EndOpening {
-            around: match bearing.inlet {
-                Inlet::Cyclic => [0.0; 2],
-                Inlet::MaxFilmLine { pressure } => [of(pressure); 2],
-            },
-            axial: of(bearing.ambient_pressure),
-        }
-    }
-
-    /// Keeps the gap of a soft shell open where the rigid shapes overlap: it has given way at least as far.
-    pub(crate) fn give_way(&mut self) {
-        const LEAST: f64 = 2e-3;
-        let heights = self.gap.mean.iter();
-        for (displacement, height) in self.expansion.displacement.iter_mut().zip(heights) {
-            displacement[0] = displacement[0].max(LEAST - height);
         }
     }
 

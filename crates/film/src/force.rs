@@ -355,6 +355,10 @@ pub struct FilmField<'a> {
     pub angles: &'a [f64],
     /// Cell centres along the axis, m.
     pub axial: &'a [f64],
+    /// Angles that the cells span, rad: half to each side of the centre.
+    pub angle_widths: &'a [f64],
+    /// Widths of the cells along the axis, m.
+    pub axial_widths: &'a [f64],
     /// Gauge pressure, Pa.
     pub pressure: &'a [f64],
     /// Film fraction.

@@ -556,16 +556,7 @@ impl FilmForce for FilmSolver {
     }
 
     fn field(&self) -> Option<FilmField<'_>> {
-        let fields = &self.film.fields;
-        Some(FilmField {
-            angles: &fields.angles,
-            axial: &fields.axial,
-            pressure: &fields.pressure,
-            film_fraction: &fields.film_fraction,
-            film_thickness: &fields.film_thickness,
-            temperature: &fields.temperature,
-            contact_pressure: &fields.contact_pressure,
-        })
+        Some(self.film.fields.view())
     }
 
     fn account_heat(&mut self, duration: f64) {

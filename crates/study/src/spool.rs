@@ -160,6 +160,8 @@ mod tests {
             let field = FilmField {
                 angles: &[0.5, 1.5],
                 axial: &[0.0],
+                angle_widths: &[1.0, 1.0],
+                axial_widths: &[0.01],
                 pressure: &row(0.0),
                 film_fraction: &row(1.0),
                 film_thickness: &row(2.0),

@@ -350,6 +350,15 @@ pub const KEYS: &[Key] = &[
     key("load_cycle.closure_tolerance", Number(Range::above(0.0, 0.1, "")), Default("1e-4"), CYCLE,
         "The orbit is closed when two cycles differ by less, over the radial clearance.", "1e-4"),
 
+    key("wear", Table, Optional, CYCLIC, "Wear of bearings whose surfaces touch; needs [bearing.surface] with contact.", ""),
+    key("wear.coefficient", Quantity(Dimension::WearCoefficient, Range::above(0.0, 1e-9, "1/Pa")), Required, CYCLIC,
+        "Archard coefficient of the shell: depth worn over contact pressure times sliding distance.", "\"1e-16 m2/N\"; 1e-18 to 1e-15 m2/N lubricated"),
+    key("wear.running_in", Table, Optional, CYCLE, "Wear the bore of the shell over a time, then calculate the worn bearing.", ""),
+    key("wear.running_in.hours", Quantity(Dimension::Time, Range::above(0.0, 1e6, "h")), Required, CYCLE, "Time over which the shell runs in; it ends sooner where the map of the wear settles.", "\"10 h\""),
+    key("wear.running_in.steps", Integer(1, 10_000), Default("50"), CYCLE, "Steps at most, each with an orbit of its own.", "50"),
+    key("wear.running_in.step_depth", Number(Range::above(0.0, 1.0, "")), Default("0.1"), CYCLE, "Largest depth worn in one step, over the composite roughness.", "0.1"),
+    key("wear.running_in.settled_below", Number(Range::between(0.0, 1.0, "")), Default("0.02"), CYCLE, "The shell has run in when no wear rate changes in a step by more than this share of the largest one; 0 runs the whole time.", "0.02"),
+
     key("limits", Table, Optional, PHYSICAL, "Design limits, shown with OK or exceeded.", ""),
     key("limits.minimum_film_thickness", Limit(Dimension::Length, Range::above(0.0, 10.0, "mm")), Optional, PHYSICAL, "Smallest film thickness allowed.", "{ value = \"1 um\", source = \"house rule\" }"),
     key("limits.peak_film_pressure", Limit(Dimension::Pressure, Range::above(0.0, 1e5, "bar")), Optional, PHYSICAL, "Largest film pressure allowed.", "{ value = \"200 MPa\", source = \"supplier\" }"),

@@ -1,6 +1,7 @@
 //! A checked machine: an engine or a shaft with its bearings and speeds, in SI.
 
 use super::heat::HeatPlan;
+use super::wear::WearPlan;
 use sommerfeld_bearing::PressureCycle;
 use sommerfeld_engine::{
     CrankTrain, Drilling, Gas, GeneralShaft, HoleSupply, Mains, PinFit, Role, TorsionalChain,
@@ -22,6 +23,8 @@ pub struct MachinePlan {
     pub temperature: f64,
     /// Where the temperature of the films comes from.
     pub heat: HeatPlan,
+    /// What wears, where it is asked for.
+    pub wear: Option<WearPlan>,
     /// Speeds of the crankshaft or shaft, rad/s, in the order of the file.
     pub speeds: Vec<f64>,
     /// How the orbits are computed.

@@ -23,6 +23,7 @@ mod sweep;
 pub mod units;
 mod values;
 mod vary;
+mod wear;
 
 pub use error::{InputError, InputErrors, MessageKind, Place, render_all};
 pub use explain::{explain, list_keys};
@@ -36,3 +37,4 @@ pub use study::{
     SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,
 };
 pub use sweep::{Keep, KeyStep, SweepMode, SweepPlan, VariedKey, VariedValue};
+pub use wear::{RunningInPlan, WearPlan};

@@ -4,6 +4,7 @@ use super::error::InputError;
 use super::heat::HeatPlan;
 use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
+use super::wear::WearPlan;
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
@@ -107,6 +108,8 @@ pub struct BearingCase {
     pub temperature: f64,
     /// Where the temperature of the film comes from.
     pub heat: HeatPlan,
+    /// What wears, where it is asked for.
+    pub wear: Option<WearPlan>,
     /// What the bearing has to do.
     pub duty: Duty,
 }

@@ -74,6 +74,10 @@ pub enum Dimension {
     Conductance,
     /// W/(m2 K)
     HeatTransfer,
+    /// 1/Pa: volume worn per load and sliding distance
+    WearCoefficient,
+    /// s
+    Time,
 }
 
 /// One unit: name, factor to SI and the SI value of its zero.
@@ -175,6 +179,12 @@ const CONDUCTIVITY: &[Unit] = &[("W/(m.K)", 1.0, 0.0)];
 const CONDUCTIVITY_SLOPE: &[Unit] = &[("W/(m.K2)", 1.0, 0.0)];
 const CONDUCTANCE: &[Unit] = &[("W/K", 1.0, 0.0)];
 const HEAT_TRANSFER: &[Unit] = &[("W/(m2.K)", 1.0, 0.0), ("kW/(m2.K)", 1e3, 0.0)];
+const WEAR_COEFFICIENT: &[Unit] = &[
+    ("1/Pa", 1.0, 0.0),
+    ("m2/N", 1.0, 0.0),
+    ("mm3/(N.m)", 1e-9, 0.0),
+];
+const TIME: &[Unit] = &[("h", 3600.0, 0.0), ("min", 60.0, 0.0), ("s", 1.0, 0.0)];
 
 /// All dimensions, to look up what a foreign unit measures.
 const DIMENSIONS: &[Dimension] = &[
@@ -209,6 +219,8 @@ const DIMENSIONS: &[Dimension] = &[
     Dimension::ConductivitySlope,
     Dimension::Conductance,
     Dimension::HeatTransfer,
+    Dimension::WearCoefficient,
+    Dimension::Time,
 ];
 
 impl Dimension {
@@ -248,6 +260,8 @@ impl Dimension {
             Self::ConductivitySlope => "conductivity per temperature",
             Self::Conductance => "heat conductance",
             Self::HeatTransfer => "heat transfer coefficient",
+            Self::WearCoefficient => "wear coefficient",
+            Self::Time => "time",
         }
     }
 
@@ -285,6 +299,8 @@ impl Dimension {
             Self::ConductivitySlope => CONDUCTIVITY_SLOPE,
             Self::Conductance => CONDUCTANCE,
             Self::HeatTransfer => HEAT_TRANSFER,
+            Self::WearCoefficient => WEAR_COEFFICIENT,
+            Self::Time => TIME,
         }
     }
 
@@ -601,6 +617,9 @@ mod tests {
             ("2 kJ/(kg K)", Dimension::HeatCapacity, 2000.0),
             ("0.14 W/(m*K)", Dimension::Conductivity, 0.14),
             ("5 W/(m\u{b2} K)", Dimension::HeatTransfer, 5.0),
+            ("1e-16 m2/N", Dimension::WearCoefficient, 1e-16),
+            ("2e-7 mm3/(N m)", Dimension::WearCoefficient, 2e-16),
+            ("10 h", Dimension::Time, 36_000.0),
         ];
         for (text, dimension, value) in cases {
             let read = parse(text, dimension).unwrap();

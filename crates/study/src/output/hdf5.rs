@@ -15,7 +15,7 @@
 //! | `film/` | `pressure`, `film_fraction`, `film_thickness` \[angle, axial\] with their axes | one state |
 //! | `cycle/` | the columns of `cycle.csv` \[crank_angle\]; `converged`, 1 where the step did | load cycles |
 //! | `fields/` | `pressure`, `film_fraction`, `film_thickness` \[crank_angle, angle, axial\] with their axes, over the last cycle | load cycles with a film on a grid |
-//! | `accumulated/shell/`, `accumulated/journal/` | what each point of that surface has seen over the last cycle: `minimum_film_thickness`, `maximum_pressure`, `pressure_amplitude`, `full_film_share` \[angle, axial\], angles from +X of the surface | the same |
+//! | `accumulated/shell/`, `accumulated/journal/` | what each point of that surface has seen over the last cycle: `minimum_film_thickness`, `maximum_pressure`, `pressure_amplitude`, `full_film_share` \[angle, axial\], angles from +X of the surface; with wear `wear_load`, `friction_energy` of asperities, `peak_pressure_velocity`, `mean_pressure_velocity`, of the shell `wear_depth_per_hour` | the same |
 //!
 //! `[output] fields` of the study chooses the instants of `fields/`.
 //!
@@ -325,6 +325,29 @@ impl<W: Write + Seek> Layout<W> {
             ("pressure_amplitude", "Pa", &map.pressure_amplitude),
             ("full_film_share", "1", &map.full_film_share),
         ];
+        let wear = map.wear.as_ref().map(|wear| {
+            let seen = &wear.map;
+            let depth = wear.depth_per_hour();
+            let mut all = vec![
+                ("wear_load", "J/m2", seen.wear_load.clone()),
+                ("friction_energy", "J/m2", wear.friction_energy()),
+                (
+                    "peak_pressure_velocity",
+                    "W/m2",
+                    seen.peak_pressure_velocity.clone(),
+                ),
+                (
+                    "mean_pressure_velocity",
+                    "W/m2",
+                    seen.mean_pressure_velocity.clone(),
+                ),
+            ];
+            all.extend(depth.map(|depth| ("wear_depth_per_hour", "m", depth)));
+            all
+        });
+        let mut maps = maps.to_vec();
+        let wear = wear.iter().flatten();
+        maps.extend(wear.map(|(name, unit, values)| (*name, *unit, values.as_slice())));
         self.surface(group, &map.angles, &map.axial, &maps)
     }
 
@@ -441,7 +464,7 @@ fn array_of(value: &Value) -> Option<(Vec<usize>, Vec<f64>)> {
 
 /// Ends of the keys of a summary and the units they stand for. Longer ends come first, as shorter ones
 /// are part of them.
-const UNITS: [(&str, &str); 22] = [
+const UNITS: [(&str, &str); 25] = [
     ("_n_m_s_rad", "N.m.s/rad"),
     ("_n_s_rad", "N.s/rad"),
     ("_n_m_rad", "N.m/rad"),
@@ -450,6 +473,9 @@ const UNITS: [(&str, &str); 22] = [
     ("_rad_s", "rad/s"),
     ("_kg_m3", "kg/m3"),
     ("_m3_s", "m3/s"),
+    ("_w_m2", "W/m2"),
+    ("_j_m2", "J/m2"),
+    ("_m3", "m3"),
     ("_pa_s", "Pa.s"),
     ("_n_m", "N.m"),
     ("_m_s", "m/s"),

@@ -451,8 +451,44 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         let angle = contact.map(|p| degrees(p.crank_angle));
         keys.insert("peak_contact_pressure_angle_deg".into(), json!(angle));
     }
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(wear_keys(cycle));
+    }
     if !cycle.coefficients.is_empty() {
         keys["coefficients"] = cycle.coefficients.iter().map(instant).collect();
+    }
+    keys
+}
+
+/// Wear of the shell, largest friction energy and pressure times speed of both surfaces.
+fn wear_keys(cycle: &CycleResults) -> Map<String, Value> {
+    let mut keys = Map::new();
+    let fields = cycle.fields.as_ref();
+    if let Some(wear) = fields.and_then(|fields| fields.on_shell.wear.as_ref()) {
+        let largest = |values: &[f64]| values.iter().copied().reduce(f64::max);
+        let deepest = wear.deepest_per_hour();
+        let all = [
+            ("wear_depth_per_hour_m", deepest.map(|d| d.value)),
+            ("wear_depth_angle_deg", deepest.map(|d| degrees(d.angle))),
+            ("wear_depth_position_m", deepest.map(|d| d.axial)),
+            ("wear_volume_per_hour_m3", wear.volume_per_hour()),
+            (
+                "peak_pressure_velocity_w_m2",
+                largest(&wear.map.peak_pressure_velocity),
+            ),
+            ("friction_energy_j_m2", largest(&wear.friction_energy())),
+        ];
+        keys.extend(all.map(|(key, value)| (key.to_owned(), json!(value))));
+    }
+    if let Some(ran) = &cycle.running_in {
+        let deepest = ran.depth.iter().copied().reduce(f64::max);
+        keys.insert("running_in_time_s".into(), json!(ran.time));
+        keys.insert("running_in_end".into(), json!(ran.end.name()));
+        keys.insert("running_in_depth_m".into(), json!(deepest));
+        keys.insert(
+            "running_in_steps".into(),
+            json!(ran.steps.len().saturating_sub(1)),
+        );
     }
     keys
 }

@@ -88,7 +88,7 @@ pub(super) fn part(
                film wears it. The journal turns under the load, so that its maps differ from those \
                of the shell."
                     .to_owned(),
-            figures: surfaces::figures(caption, detail),
+            figures: surfaces::figures(caption, fields.on_shell.wear.is_some(), detail),
         });
     }
     part.data = json!({

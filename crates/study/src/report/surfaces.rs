@@ -6,13 +6,17 @@ use super::figures::{outline, short};
 use super::format::{MICROMETRE, Units, angle, plain_number};
 use super::packing::{Blocks, Keep, packed};
 use super::page::Figure;
-use crate::results::{AccumulatedMap, CycleFields, degrees, degrees_around};
+use crate::results::{AccumulatedMap, CycleFields, SurfaceWear, degrees, degrees_around};
 use serde_json::{Value, json};
 use sommerfeld_film::{Bearing, Carrier, Feed, FeedShape};
 use std::f64::consts::{PI, TAU};
 
 /// Oil hole over bore diameter where the study has no hole in the journal: usual for crankshafts.
 const USUAL_HOLE: f64 = 0.1;
+/// nm per m.
+const NANOMETRES: f64 = 1e9;
+/// MW per W.
+const MEGA: f64 = 1e-6;
 /// Pressures this share of the range above the smallest one count as equally small.
 const ALIKE: f64 = 0.01;
 
@@ -162,7 +166,7 @@ pub(super) fn hole_sentence(bearing: &Bearing, map: &AccumulatedMap, units: &Uni
 
 /// Maps of both surfaces side by side: kind of the drawing, title, what one sees. `hole` tells where
 /// an oil hole in the journal would be loaded least.
-pub(super) fn figures(hole: &str, detail: &Detail) -> Vec<Figure> {
+pub(super) fn figures(hole: &str, has_wear: bool, detail: &Detail) -> Vec<Figure> {
     let shell_frame = "Shell, angle from +X of the shell frame.";
     let journal_frame = "Journal, angle from +X of the journal.";
     let figure = |kind, title, caption: String| Figure {
@@ -216,6 +220,30 @@ pub(super) fn figures(hole: &str, detail: &Detail) -> Vec<Figure> {
             format!("{journal_frame} Dark where oil is short for most of the cycle."),
         ),
     ];
+    if has_wear {
+        figures.extend([
+            figure(
+                "shell-wear",
+                "Wear · shell",
+                format!("{shell_frame} Depth that contact wears off the shell in an hour (Archard)."),
+            ),
+            figure(
+                "journal-energy",
+                "Friction energy · journal",
+                format!("{journal_frame} Energy that asperities in contact turn into heat in a cycle; the shear of the oil is not in it."),
+            ),
+            figure(
+                "shell-pv",
+                "Pressure times speed · shell",
+                format!("{shell_frame} Largest film and contact pressure together times sliding speed."),
+            ),
+            figure(
+                "journal-pv",
+                "Pressure times speed · journal",
+                format!("{journal_frame} Largest film and contact pressure together times sliding speed."),
+            ),
+        ]);
+    }
     if detail.is_crowded {
         figures.retain(|figure| !figure.kind.ends_with("share"));
     }
@@ -268,7 +296,14 @@ fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units, detail: &Detail) 
         packed(&gathered, detail.map_depth)
     };
     let pressure = units.pressure.factor;
+    let wear = map.wear.as_ref();
+    let of_wear = |values: Option<Vec<f64>>, factor| {
+        values.map(|values| field(&values, Keep::Largest, factor))
+    };
     json!({
+        "wear": of_wear(wear.and_then(SurfaceWear::depth_per_hour), NANOMETRES),
+        "energy": of_wear(wear.map(SurfaceWear::friction_energy), 1.0),
+        "pv": of_wear(wear.map(|wear| wear.map.peak_pressure_velocity.clone()), MEGA),
         "angle": numbers(blocks.middles_around(&angles)),
         "axial": numbers(blocks.middles_along(&axial)),
         "pressure": field(&map.maximum_pressure, Keep::Largest, pressure),
@@ -294,6 +329,7 @@ mod tests {
             pressure_amplitude: pressure.clone(),
             maximum_pressure: pressure,
             full_film_share: vec![1.0; 24],
+            wear: None,
         }
     }
 

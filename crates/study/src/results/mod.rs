@@ -7,7 +7,9 @@ use crate::limits::{Limit, LimitCheck, Quantity, Side};
 use crate::models::Model;
 use machine::{BearingResults, MachineResults};
 use serde::{Deserialize, Serialize};
-use sommerfeld_bearing::{Coefficients, CyclePoint, JournalOrbit, Stability, StabilityChart};
+use sommerfeld_bearing::{
+    Coefficients, CyclePoint, JournalOrbit, RanIn, Stability, StabilityChart, WearMap,
+};
 use sommerfeld_film::{
     Bearing, Extreme, FeedFlow, FilmField, FilmSummary, JournalState, Outcome, Reaction,
 };
@@ -193,6 +195,8 @@ pub struct CycleResults {
     pub fields: Option<CycleFields>,
     /// Stiffness and damping at the crank angles asked for.
     pub coefficients: Vec<InstantCoefficients>,
+    /// How the shell ran in before, where it was asked for.
+    pub running_in: Option<RanIn>,
 }
 
 /// The fields over the last cycle: single instants, and what each point of a surface has seen.
@@ -228,7 +232,54 @@ pub struct AccumulatedMap {
     pub pressure_amplitude: Vec<f64>,
     /// Share of the cycle in which the point had a full film.
     pub full_film_share: Vec<f64>,
+    /// What contact has done to it, where the study asks for wear.
+    #[serde(default)]
+    pub wear: Option<SurfaceWear>,
 }
+
+/// What contact has done to a surface over a cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SurfaceWear {
+    /// Wear load and pressure times sliding speed.
+    pub map: WearMap,
+    /// Boundary friction, for the friction energy.
+    pub boundary_friction: f64,
+    /// Archard coefficient of the surface, 1/Pa; `None` for a surface whose wear is not asked for.
+    pub coefficient: Option<f64>,
+}
+
+impl SurfaceWear {
+    /// Deepest wear in an hour of such cycles, m, and where; of a surface with a coefficient.
+    #[must_use]
+    pub fn deepest_per_hour(&self) -> Option<Extreme> {
+        let deepest = self.map.deepest_rate(self.coefficient?);
+        Some(Extreme {
+            value: HOUR * deepest.value,
+            ..deepest
+        })
+    }
+
+    /// Depth worn in an hour of such cycles, m.
+    #[must_use]
+    pub fn depth_per_hour(&self) -> Option<Vec<f64>> {
+        Some(self.map.depth_rate(HOUR * self.coefficient?))
+    }
+
+    /// Volume worn in an hour of such cycles, m3.
+    #[must_use]
+    pub fn volume_per_hour(&self) -> Option<f64> {
+        Some(self.map.volume_rate(HOUR * self.coefficient?))
+    }
+
+    /// Friction energy of asperities in a cycle, J/m2: without the viscous shear of the film.
+    #[must_use]
+    pub fn friction_energy(&self) -> Vec<f64> {
+        self.map.friction_energy(self.boundary_friction)
+    }
+}
+
+/// s
+const HOUR: f64 = 3600.0;
 
 /// The fields at one crank angle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

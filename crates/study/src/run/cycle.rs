@@ -2,6 +2,7 @@
 
 use super::heat_field::{CYCLE_TOLERANCE, FieldHeat};
 use super::record::FieldRecorder;
+use super::running_in;
 use super::{
     ProgressCallback, conditions, film_of, note_edge_contact, note_outcome, with_reynolds_number,
 };
@@ -32,7 +33,18 @@ pub(super) fn solve_cycle(
         case.bearing.cavitation_pressure,
         spool,
     );
-    let solved = bearing_cycle(case, duty, settings, recorder, progress)?;
+    let ran_in = running_in::ran_in(case, duty, settings, progress)?;
+    let worn = ran_in.as_ref().map(|ran| BearingCase {
+        bearing: ran.bearing.clone(),
+        ..case.clone()
+    });
+    let case = worn.as_ref().unwrap_or(case);
+    let recorder = recorder.with_wear(case, duty);
+    let mut solved = bearing_cycle(case, duty, settings, recorder, progress)?;
+    if let Some(ran) = &ran_in {
+        running_in::note(ran, header);
+    }
+    solved.results.running_in = ran_in;
     note_outcome(solved.results.orbit.outcome, header);
     if let (Some(heat), Some((warmed, changes))) = (FieldHeat::of(case), &solved.warmth) {
         // What the orbit did not reach was said of the orbit.
@@ -81,6 +93,7 @@ pub(super) fn without_orbit(bearing: &Bearing, outcome: Outcome) -> CycleResults
         feed_flows: Vec::new(),
         fields: None,
         coefficients: Vec::new(),
+        running_in: None,
     }
 }
 
@@ -274,6 +287,7 @@ impl<'a> CycleWatch<'a> {
                 feed_flows,
                 fields: fields.next(),
                 coefficients,
+                running_in: None,
             },
             turned: fields.collect(),
             warmth: None,

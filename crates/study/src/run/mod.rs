@@ -8,6 +8,7 @@ mod heat_field;
 mod inputs;
 mod machine;
 mod record;
+mod running_in;
 mod steady;
 mod sweep;
 mod turn;

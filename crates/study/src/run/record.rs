@@ -13,12 +13,16 @@
 //!
 //! Bearings that do the same later ([`Turn`]) have instants and a journal of their own; their shells
 //! have seen the same.
+//!
+//! Wear is shared out over the cells of a surface ([`WearRecord`]), not interpolated: its volume counts.
 
 use super::turn::Turn;
-use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot};
+use crate::input::{BearingCase, CycleDuty};
+use crate::results::{AccumulatedMap, CycleField, CycleFields, FieldSnapshot, SurfaceWear};
 use crate::spool::FieldSpool;
-use sommerfeld_bearing::{CyclePoint, Progress};
-use sommerfeld_film::FilmField;
+use sommerfeld_bearing::wear::sliding_speed;
+use sommerfeld_bearing::{CyclePoint, Progress, WearRecord};
+use sommerfeld_film::{FilmField, Finish};
 use std::f64::consts::TAU;
 
 /// Fills [`CycleFields`] while an orbit runs, and the fields of every crank angle on the disk.
@@ -36,6 +40,19 @@ pub(super) struct FieldRecorder<'a> {
     spool: Option<&'a mut FieldSpool>,
     /// Bearings that do the same later.
     turns: &'a [Turn],
+    wear: Option<WearWatch>,
+}
+
+/// How wear is recorded.
+#[derive(Debug, Clone, Copy)]
+struct WearWatch {
+    /// Archard coefficient of the shell, 1/Pa.
+    coefficient: f64,
+    boundary_friction: f64,
+    /// Radius of the bore, m.
+    radius: f64,
+    /// Time from one output point to the next, s.
+    interval: f64,
 }
 
 /// The record of one cycle.
@@ -73,7 +90,23 @@ impl<'a> FieldRecorder<'a> {
             record: None,
             spool,
             turns: &[],
+            wear: None,
         }
+    }
+
+    /// Records wear too, where the case asks for it and its surfaces touch.
+    pub(super) fn with_wear(self, case: &BearingCase, duty: &CycleDuty) -> Self {
+        let (Some(plan), Finish::Rough(rough)) = (&case.wear, &case.bearing.finish) else {
+            return self;
+        };
+        let period = duty.cycle.period / duty.cycle.engine_speed;
+        let wear = rough.contact.is_on().then(|| WearWatch {
+            coefficient: plan.coefficient,
+            boundary_friction: rough.boundary_friction,
+            radius: case.bearing.radius(),
+            interval: period / self.points as f64,
+        });
+        Self { wear, ..self }
     }
 
     /// Records also for bearings that do the same later.
@@ -101,17 +134,18 @@ impl<'a> FieldRecorder<'a> {
             crank_angle: point.crank_angle,
             field: FieldSnapshot::from(*field),
         };
+        let wear = self.wear;
         let record = self.record.get_or_insert_with(|| Record {
             frames: Vec::new(),
             least_film: f64::INFINITY,
             worst: snapshot(),
             worst_index: index,
-            on_shell: SurfaceRecord::new(field),
-            on_journal: SurfaceRecord::new(field),
+            on_shell: SurfaceRecord::new(field, wear),
+            on_journal: SurfaceRecord::new(field, wear),
             turned: self
                 .turns
                 .iter()
-                .map(|_| TurnedRecord::new(field))
+                .map(|_| TurnedRecord::new(field, wear))
                 .collect(),
         });
         let thickness = point.summary.minimum_film_thickness.value;
@@ -124,9 +158,12 @@ impl<'a> FieldRecorder<'a> {
             record.frames.push(snapshot());
         }
         let least = self.cavitation_pressure;
-        record.on_shell.see(field, point.state.shell_angle, least);
+        let sliding = wear.map_or(0.0, |wear| sliding_speed(wear.radius, &point.state));
+        let instant = Instant { field, sliding };
+        let turned = point.state.shell_angle;
+        record.on_shell.see(&instant, turned, least);
         let turned = point.state.journal_angle;
-        record.on_journal.see(field, turned, least);
+        record.on_journal.see(&instant, turned, least);
         for (own, turn) in record.turned.iter_mut().zip(self.turns) {
             let index = turn.index(index);
             if is_frame(index, self.points, self.frames) {
@@ -136,7 +173,7 @@ impl<'a> FieldRecorder<'a> {
                 });
             }
             let turned = turn.journal_angle(index, turned);
-            own.on_journal.see(field, turned, least);
+            own.on_journal.see(&instant, turned, least);
         }
         match &mut self.spool {
             Some(spool) => spool.push(point.crank_angle, field),
@@ -151,7 +188,7 @@ impl<'a> FieldRecorder<'a> {
             return Vec::new();
         };
         let (worst, worst_index) = (record.worst, record.worst_index);
-        let on_shell = record.on_shell.finish();
+        let on_shell = record.on_shell.finish(true);
         let turned = record.turned.into_iter().zip(self.turns);
         let turned = turned.map(|(mut own, turn)| {
             own.frames
@@ -163,7 +200,7 @@ impl<'a> FieldRecorder<'a> {
                     ..worst.clone()
                 },
                 on_shell: on_shell.clone(),
-                on_journal: own.on_journal.finish(),
+                on_journal: own.on_journal.finish(false),
             }
         });
         let turned: Vec<CycleFields> = turned.collect();
@@ -171,17 +208,17 @@ impl<'a> FieldRecorder<'a> {
             frames: record.frames,
             worst,
             on_shell,
-            on_journal: record.on_journal.finish(),
+            on_journal: record.on_journal.finish(false),
         };
         std::iter::once(first).chain(turned).collect()
     }
 }
 
 impl TurnedRecord {
-    fn new(field: &FilmField<'_>) -> Self {
+    fn new(field: &FilmField<'_>, wear: Option<WearWatch>) -> Self {
         Self {
             frames: Vec::new(),
-            on_journal: SurfaceRecord::new(field),
+            on_journal: SurfaceRecord::new(field, wear),
         }
     }
 }
@@ -194,6 +231,13 @@ fn is_frame(index: usize, points: usize, most: usize) -> bool {
     index > 0 && until(index) > until(index - 1)
 }
 
+/// One output point as a surface sees it.
+struct Instant<'a> {
+    field: &'a FilmField<'a>,
+    /// Sliding speed, m/s.
+    sliding: f64,
+}
+
 /// What the points of one surface have seen so far.
 struct SurfaceRecord {
     angles: Vec<f64>,
@@ -204,10 +248,11 @@ struct SurfaceRecord {
     /// Sum of the indicator of a full film.
     full: Vec<f64>,
     seen: usize,
+    wear: Option<(WearWatch, WearRecord)>,
 }
 
 impl SurfaceRecord {
-    fn new(field: &FilmField<'_>) -> Self {
+    fn new(field: &FilmField<'_>, wear: Option<WearWatch>) -> Self {
         let cells = field.pressure.len();
         Self {
             angles: field.angles.to_vec(),
@@ -217,11 +262,16 @@ impl SurfaceRecord {
             largest_pressure: vec![f64::NEG_INFINITY; cells],
             full: vec![0.0; cells],
             seen: 0,
+            wear: wear.map(|wear| (wear, WearRecord::new(wear.radius, field))),
         }
     }
 
     /// Takes the fields of one instant at which the surface has turned by `turned`, rad.
-    fn see(&mut self, field: &FilmField<'_>, turned: f64, cavitation_pressure: f64) {
+    fn see(&mut self, instant: &Instant<'_>, turned: f64, cavitation_pressure: f64) {
+        let Instant { field, sliding } = *instant;
+        if let Some((wear, record)) = &mut self.wear {
+            record.see(field, turned, sliding, wear.interval);
+        }
         let along = self.axial.len();
         let is_full = |cell: usize| {
             let full =
@@ -245,7 +295,13 @@ impl SurfaceRecord {
         self.seen += 1;
     }
 
-    fn finish(self) -> AccumulatedMap {
+    /// The shell is the surface whose wear coefficient is given.
+    fn finish(self, is_shell: bool) -> AccumulatedMap {
+        let wear = self.wear.map(|(wear, record)| SurfaceWear {
+            map: record.finish(),
+            boundary_friction: wear.boundary_friction,
+            coefficient: is_shell.then_some(wear.coefficient),
+        });
         let seen = self.seen as f64;
         let extremes = self.largest_pressure.iter().zip(&self.least_pressure);
         AccumulatedMap {
@@ -255,6 +311,7 @@ impl SurfaceRecord {
             minimum_film_thickness: self.least_thickness,
             maximum_pressure: self.largest_pressure,
             full_film_share: self.full.iter().map(|full| full / seen).collect(),
+            wear,
         }
     }
 }
@@ -320,6 +377,8 @@ mod tests {
         let field = FilmField {
             angles: &angles,
             axial: &AXIAL,
+            angle_widths: &[],
+            axial_widths: &[],
             film_fraction: &vec![1.0; pressure.len()],
             pressure: &pressure,
             film_thickness: &thickness,

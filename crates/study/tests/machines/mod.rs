@@ -122,6 +122,7 @@ pub fn inline_plan(firing_order: &[usize], speeds: &[f64]) -> MachinePlan {
         lubricant: Lubricant::constant(0.010, 850.0),
         temperature: 373.15,
         heat: HeatPlan::Given,
+        wear: None,
         speeds: speeds.iter().map(|rpm| rpm * RPM).collect(),
         orbit: OrbitPlan {
             crank_step: PI / 180.0,

@@ -133,6 +133,7 @@ fn one(role: Role, index: usize, rpm: f64, with_fields: bool) -> BearingResults 
             feed_flows: Vec::new(),
             fields,
             coefficients: Vec::new(),
+            running_in: None,
         },
     }
 }

@@ -143,6 +143,7 @@ pub fn load_cycle(title: &str) -> Results {
         feed_flows,
         fields: Some(fields),
         coefficients: Vec::new(),
+        running_in: None,
     };
     let mut header = header("load-cycle", title);
     header.error = Some(BTreeMap::from([(
@@ -217,6 +218,7 @@ fn accumulated(instants: &[(f64, &FieldSnapshot)]) -> AccumulatedMap {
             .collect(),
         maximum_pressure: highest,
         full_film_share: seen(0.0, &full, |sum, part| sum + part),
+        wear: None,
     }
 }
 

@@ -37,6 +37,7 @@ impl Checker<'_> {
         }
         let bearing = self.bearing();
         let heat = self.heat(bearing.as_ref());
+        let wear = bearing.as_ref().and_then(|b| self.wear(std::iter::once(b)));
         let temperature = self.number("oil.temperature");
         let lubricant = temperature.and_then(|temperature| self.lubricant(temperature, &heat));
         let duty = match self.mode {
@@ -49,6 +50,7 @@ impl Checker<'_> {
             lubricant: lubricant?,
             temperature: temperature?,
             heat: heat?,
+            wear: wear?,
             duty: duty?,
         })))
     }

@@ -36,12 +36,14 @@ impl Checker<'_> {
             _ => self.shaft(),
         };
         let (machine, bearings) = found?;
+        let wear = self.wear(bearings.iter().map(|b| &b.bearing));
         Some(Subject::Machine(Box::new(MachinePlan {
             machine,
             bearings,
             lubricant: lubricant?,
             temperature: temperature?,
             heat: heat?,
+            wear: wear?,
             speeds,
             orbit: orbit?,
         })))

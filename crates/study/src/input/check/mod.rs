@@ -17,6 +17,7 @@ mod shapes;
 mod surface;
 mod sweep;
 mod torsion;
+mod wear;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};

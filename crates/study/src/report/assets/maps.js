@@ -44,6 +44,9 @@ globalThis.sommerfeld.parts.push((report) => {
     thickness: { scale: scales.plasma, name: "thinnest film", unit: "µm", reversed: true },
     amplitude: { scale: scales.inferno, name: "pressure amplitude", unit: units.pressure, zero: true },
     share: { scale: "Cividis", name: "share with full film", unit: "", whole: true },
+    wear: { scale: scales.inferno, name: "wear depth", unit: "nm/h", zero: true },
+    energy: { scale: scales.inferno, name: "friction energy", unit: "J/m²", zero: true },
+    pv: { scale: "Viridis", name: "pressure times speed", unit: "MW/m²", zero: true },
   };
   // Each surface is cut open away from its own peak.
   const seams = Object.fromEntries(["shell", "journal"].map((surface) => {
@@ -54,11 +57,12 @@ globalThis.sommerfeld.parts.push((report) => {
   // Both surfaces carry one scale of colours, so that they compare at a glance.
   for (const [key, kind] of Object.entries(kinds)) {
     if (!surfaces.shell[key]) { continue; }
-    const [shell, journal] = [surfaces.shell, surfaces.journal].map((surface) => unpacked(surface[key]));
-    const low = Math.min(report.smallest(shell), report.smallest(journal));
-    const high = Math.max(report.largest(shell), report.largest(journal));
+    const seen = ["shell", "journal"].filter((surface) => surfaces[surface][key])
+      .map((surface) => [surface, unpacked(surfaces[surface][key])]);
+    const low = Math.min(...seen.map(([, field]) => report.smallest(field)));
+    const high = Math.max(...seen.map(([, field]) => report.largest(field)));
     const range = { zmin: kind.whole || kind.zero ? Math.min(0, low) : low, zmax: kind.whole ? 1 : high };
-    for (const [surface, field] of [["shell", shell], ["journal", journal]]) {
+    for (const [surface, field] of seen) {
       drawings[`${surface}-${key}`] = () => {
         const { angle, axial, feeds } = surfaces[surface];
         const seam = seams[surface];

@@ -97,6 +97,7 @@ fn bearing_results(
                 feed_flows: found.feed_flows,
                 fields: found.fields,
                 coefficients: Vec::new(),
+                running_in: None,
             },
         ),
     };

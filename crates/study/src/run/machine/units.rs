@@ -208,6 +208,7 @@ pub(super) fn bearing_case(
         lubricant: plan.lubricant.clone(),
         temperature: plan.temperature,
         heat: plan.heat,
+        wear: plan.wear,
         duty: Duty::Cycle(duty.clone()),
     };
     (case, duty)
@@ -221,5 +222,5 @@ pub(super) fn recorder<'a>(
 ) -> FieldRecorder<'a> {
     let frames = if speed == 0 { MACHINE_FRAMES } else { 0 };
     let points = orbit_settings(duty).points_per_cycle(&duty.cycle);
-    FieldRecorder::new(points, frames, case.bearing.cavitation_pressure, None)
+    FieldRecorder::new(points, frames, case.bearing.cavitation_pressure, None).with_wear(case, duty)
 }

@@ -1,0 +1,142 @@
+//! What a solution makes of pressure, density and displacement: the place about which the next one is
+//! linearised.
+
+use super::FilmState;
+use crate::bearing::{Bearing, Inlet};
+use crate::cavitation::CavitationModel;
+use crate::nonlinear::EndOpening;
+use crate::reduced_pressure::ReducedPressure;
+use crate::reynolds::Cell;
+
+impl FilmState {
+    /// What the new solution makes of pressure, density and displacement, the place about which the next
+    /// one is linearised.
+    pub(super) fn expand(&mut self, closure: &dyn CavitationModel) {
+        self.exceeds_limit = false;
+        self.is_bending = false;
+        if self.reduced == ReducedPressure::Same && self.expansion.is_linear() {
+            self.stiffened.clear();
+            return;
+        }
+        let unit = self.units.pressure;
+        let is_soft = !self.expansion.displacement.is_empty();
+        self.stiffened.resize(self.pressure.len(), [0.0, 1.0]);
+        let mut held_back = Vec::new();
+        for k in 0..self.pressure.len() {
+            let full = self.reduced.pressure(self.pressure[k] * unit);
+            let held = is_soft.then(|| self.held_back(k, full)).flatten();
+            let (pressure, slope) = match (held, full) {
+                (Some((at, pressure, slope)), _) => {
+                    held_back.push((k, at));
+                    (pressure, slope)
+                }
+                (None, Some(full)) => full,
+                (None, None) => {
+                    self.exceeds_limit = true;
+                    self.reduced.highest()
+                }
+            };
+            self.stiffened[k] = [pressure / unit, slope];
+        }
+        if !self.expansion.is_linear() {
+            self.move_expansion();
+            let pressure = closure.equation_pressure(&self.solution, &self.pressure);
+            self.expansion.pressure.copy_from_slice(pressure);
+        }
+        self.is_bending |= !held_back.is_empty();
+        for (k, at) in held_back {
+            self.expansion.pressure[k] = at;
+        }
+    }
+
+    /// Where the pressure of a cell rises to far more than the slope of the last one foretold, or beyond
+    /// the limit: what the slope foretold, with reduced pressure (1/s), pressure (Pa) and slope there. A soft
+    /// shell would make way for a pressure that it never gets, and leave the film without one.
+    fn held_back(&self, k: usize, full: Option<(f64, f64)>) -> Option<(f64, f64, f64)> {
+        const MOST: f64 = 1.5;
+        let unit = self.units.pressure;
+        let [last, slope] = self.stiffened[k];
+        let rise = self.pressure[k] - self.expansion.pressure[k].max(0.0);
+        if rise <= 0.0 {
+            return None;
+        }
+        let foretold = (last.max(0.0) + slope * rise) * unit;
+        if full.is_some_and(|(pressure, _)| pressure <= MOST * foretold) {
+            return None;
+        }
+        let reduced = self.reduced.reduced(foretold);
+        let (pressure, slope) = self.reduced.pressure(reduced)?;
+        Some((reduced / unit, pressure, slope))
+    }
+
+    /// Density and displacement at the new pressures.
+    fn move_expansion(&mut self) {
+        const ROUND_OFF: f64 = 1e-9;
+        let unit = self.units.pressure;
+        for k in 0..self.pressure.len() {
+            let [pressure, slope] = self.stiffened[k];
+            let change = self.pressure[k] - self.expansion.pressure[k].max(0.0);
+            let mut content = self.film_fraction[k];
+            if let Some(density) = self.expansion.density.get_mut(k) {
+                let is_full = self.set.cells[k] == Cell::Full;
+                let next = if is_full {
+                    let (factor, by_pressure) = self.compression.factor(pressure * unit);
+                    [factor, by_pressure * unit * slope]
+                } else {
+                    [1.0, 0.0]
+                };
+                let linear = density[0] + density[1] * change;
+                self.is_bending |= is_full && (next[0] - linear).abs() > ROUND_OFF;
+                *density = next;
+                content *= next[0];
+            }
+            if let Some(displacement) = self.expansion.displacement.get_mut(k) {
+                let compliance = self.compliance * unit / self.units.clearance;
+                let contact = self.contact.get(k).map_or([0.0; 2], |contact| *contact);
+                let fed = self.set.cells[k] == Cell::Fed;
+                let next = if fed {
+                    0.0
+                } else {
+                    compliance * (pressure.max(0.0) + contact[0])
+                };
+                let height = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height)[k];
+                // A step that opens the gap by more than it is has left what its slopes are good for.
+                let most = 0.5 * height.abs().max(displacement[0].abs()).max(1e-3);
+                let moved = (next - displacement[0]).clamp(-most, most);
+                self.is_bending |= moved.abs() > ROUND_OFF * height.abs().max(1e-3);
+                // A pressure that was cut does not move the shell.
+                let slope = if fed || pressure <= 0.0 {
+                    0.0
+                } else {
+                    compliance * slope
+                };
+                *displacement = [displacement[0] + moved, slope];
+            }
+            self.expansion.content[k] = content;
+        }
+    }
+
+    /// Displacement at the boundaries, over the clearance.
+    pub(crate) fn end_opening(&self, bearing: &Bearing) -> EndOpening {
+        let of = |pressure: f64| {
+            let above = (pressure - bearing.cavitation_pressure).max(0.0);
+            self.compliance * above / self.units.clearance
+        };
+        EndOpening {
+            around: match bearing.inlet {
+                Inlet::Cyclic => [0.0; 2],
+                Inlet::MaxFilmLine { pressure } => [of(pressure); 2],
+            },
+            axial: of(bearing.ambient_pressure),
+        }
+    }
+
+    /// Keeps the gap of a soft shell open where the rigid shapes overlap: it has given way at least as far.
+    pub(crate) fn give_way(&mut self) {
+        const LEAST: f64 = 2e-3;
+        let heights = self.gap.mean.iter();
+        for (displacement, height) in self.expansion.displacement.iter_mut().zip(heights) {
+            displacement[0] = displacement[0].max(LEAST - height);
+        }
+    }
+}
