@@ -13,7 +13,7 @@ use crate::integrals::Units;
 use crate::journal_state::JournalState;
 use crate::linear::{RingFactor, RingMatrix};
 use crate::mirror::Extent;
-use crate::nonlinear::{EndOpening, Expansion, FilmEquations};
+use crate::nonlinear::{Expansion, FilmEquations};
 use crate::passage::Passage;
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::{Around, Axial, Cell, Operator};
