@@ -5,6 +5,7 @@ use crate::bearing::{Bearing, Ends, Inlet};
 use crate::cavitation::{CavitationModel, FilmSet};
 use crate::energy::HeatAccount;
 use crate::feed_lines::FeedLines;
+use crate::finish::Finish;
 use crate::force::{Conditions, FeedFlow, FilmField, Reaction, Step};
 use crate::gap::Gap;
 use crate::grid::Grid;
@@ -51,8 +52,13 @@ pub(crate) struct FilmState {
     pub(crate) is_bending: bool,
     /// What the gap lets through, where it is not smooth or its oil not the same everywhere.
     pub(crate) passage: Option<Passage>,
-    /// Contact pressure per cell, 1/s, and its derivative by the nominal H; empty without contact.
+    /// Contact pressure per cell, 1/s, and its derivative by the H of the rigid shapes; empty without
+    /// contact.
     pub(crate) contact: Vec<[f64; 2]>,
+    /// Where asperities press on a soft shell, per cell: by how much the gap falls as that of the rigid
+    /// shapes does; else empty.
+    pub(crate) yielding: Vec<f64>,
+    pub(crate) finish: Finish,
     /// Relation of pressure and reduced pressure at the film's temperature (K).
     pub(crate) reduced: ReducedPressure,
     pub(crate) reduced_at: f64,
@@ -162,6 +168,8 @@ impl FilmState {
             is_bending: false,
             passage: None,
             contact: Vec::new(),
+            yielding: Vec::new(),
+            finish: bearing.finish.clone(),
             reduced: ReducedPressure::Same,
             reduced_at: f64::NAN,
             exceeds_limit: false,
@@ -206,16 +214,19 @@ impl FilmState {
     }
 
     /// Contact pressure of every cell between rough surfaces.
-    pub(crate) fn touch(&mut self, bearing: &Bearing) {
-        if !bearing.finish.has_contact() {
+    pub(crate) fn touch(&mut self) {
+        if !self.finish.has_contact() {
             return;
         }
         let (clearance, unit) = (self.units.clearance, self.units.pressure);
         let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
         self.contact.resize(nominal.len(), [0.0; 2]);
         for (contact, height) in self.contact.iter_mut().zip(nominal) {
-            let pressure = bearing.finish.contact_pressure(height * clearance);
+            let pressure = self.finish.contact_pressure(height * clearance);
             *contact = [pressure.value / unit, pressure.by_gap * clearance / unit];
+        }
+        for (contact, yielding) in self.contact.iter_mut().zip(&self.yielding) {
+            contact[1] *= yielding;
         }
     }
 

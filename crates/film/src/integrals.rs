@@ -89,6 +89,9 @@ pub struct SolvedFilm<'a> {
     pub passage: Option<&'a Passage>,
     /// Contact pressure per cell, 1/s, and its derivative by the nominal H; empty without contact.
     pub contact: &'a [[f64; 2]],
+    /// Where asperities press on a soft shell, per cell: by how much the gap falls as that of the rigid
+    /// shapes does; else empty.
+    pub yielding: &'a [f64],
     /// Film fraction per cell.
     pub film_fraction: &'a [f64],
     /// Content per cell over that of a full film without pressure: film fraction times density.
@@ -271,16 +274,17 @@ impl SolvedFilm<'_> {
         self.sensitivity_contact(&mut by_position);
         match storage {
             Storage::Rate => {
-                self.sensitivity_storage(adjoints, 1.0, 0.0, &mut by_rate);
-                self.sensitivity_storage(adjoints, 0.0, 1.0, &mut by_position);
+                self.sensitivity_storage(adjoints, [1.0, 0.0], &[], &mut by_rate);
+                self.sensitivity_storage(adjoints, [0.0, 1.0], self.yielding, &mut by_position);
                 self.sensitivity_limited_storage(adjoints, &mut by_position);
             }
             Storage::Step {
                 duration, after, ..
             } => {
                 let per_time = 1.0 / duration;
-                self.sensitivity_storage(adjoints, per_time, after * per_time, &mut by_position);
-                self.sensitivity_storage(adjoints, after * per_time, 0.0, &mut by_rate);
+                let by_gap = [per_time, after * per_time];
+                self.sensitivity_storage(adjoints, by_gap, self.yielding, &mut by_position);
+                self.sensitivity_storage(adjoints, [after * per_time, 0.0], &[], &mut by_rate);
             }
         }
         Tangent {
@@ -316,6 +320,7 @@ impl SolvedFilm<'_> {
                 };
                 let conducted = conducting * self.operator.conductance_around[face];
                 let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
+                let by_height = by_height * self.yielding_between(before, behind);
                 let value = |cell: Option<usize>| cell.map_or([0.0; L], |k| adjoints[k]);
                 sums.add(value(before), value(behind), by_height, self.grid.axial[j]);
             }
@@ -331,9 +336,13 @@ impl SolvedFilm<'_> {
             let pressure = &self.pressure[i * m..(i + 1) * m];
             let adjoints = &adjoints[i * m..(i + 1) * m];
             let faces = &self.grid.axial_faces;
-            let slope = |j: usize| match self.passage {
-                Some(passage) => passage.axial_slopes[i * (m + 1) + j],
-                None => 3.0 / gap[j],
+            let slope = |j: usize| {
+                let slope = match self.passage {
+                    Some(passage) => passage.axial_slopes[i * (m + 1) + j],
+                    None => 3.0 / gap[j],
+                };
+                let before = (j > 0).then(|| i * m + j - 1);
+                slope * self.yielding_between(before, (j < m).then_some(i * m + j))
             };
             let mut sums = StationSums::<L>::new();
             let first = slope(0) * self.set_flow_at_end(i, 0);
@@ -370,12 +379,12 @@ impl SolvedFilm<'_> {
     /// `per_time`: 1 for rates of change; 1/duration for the gap and after/duration for its rate in
     /// steps.
     /// Of what cells hold, by the gap (or its rate) `per_time`, and by how its growth changes with the
-    /// gap `per_rate`.
+    /// gap `per_rate`; `yielding` for a gap that follows the rigid shapes only in part.
     fn sensitivity_storage<const L: usize>(
         &self,
         adjoints: &[Lanes<L>],
-        per_time: f64,
-        per_rate: f64,
+        [per_time, per_rate]: [f64; 2],
+        yielding: &[f64],
         by: &mut Sensitivity<L>,
     ) {
         let m = self.grid.n_axial();
@@ -391,7 +400,8 @@ impl SolvedFilm<'_> {
                         let [slope, curvature] = passage.holding_slopes[k];
                         per_time * slope + per_rate * passage.rate[k] * curvature
                     });
-                    let by_height = held * self.held[k] * self.grid.area(i, j);
+                    let yielding = yielding.get(k).copied().unwrap_or(1.0);
+                    let by_height = held * yielding * self.held[k] * self.grid.area(i, j);
                     sums.add(adjoints[k], [0.0; L], by_height, self.grid.axial[j]);
                 }
             }
@@ -451,6 +461,24 @@ impl SolvedFilm<'_> {
         }
     }
 
+    /// By how much the gap at a face falls as that of the rigid shapes does: half from either side.
+    fn yielding_between(&self, before: Option<usize>, behind: Option<usize>) -> f64 {
+        if self.yielding.is_empty() {
+            return 1.0;
+        }
+        let of = |cell: Option<usize>| cell.map_or(1.0, |k| self.yielding[k]);
+        0.5 * (of(before) + of(behind))
+    }
+
+    /// Load on the journal per pressure of a cell: a shell that gives way takes load off its asperities.
+    fn carrying(&self, cell: usize) -> f64 {
+        if self.yielding.is_empty() {
+            return 1.0;
+        }
+        let compliance = self.bearing.elasticity.compliance() * self.units.pressure;
+        1.0 + self.contact[cell][1] * compliance / self.units.clearance
+    }
+
     /// Right sides of the adjoints: derivative of force and moment with respect to P of each cell whose
     /// P is an unknown that acts on the journal (`loaded`).
     pub fn output_weights<const L: usize>(
@@ -463,7 +491,7 @@ impl SolvedFilm<'_> {
             for j in 0..m {
                 let k = i * m + j;
                 weights[k] = if loaded(k) {
-                    let stiffening = self.stiffening(k);
+                    let stiffening = self.stiffening(k) * self.carrying(k);
                     self.output_weight(k).map(|weight| weight * stiffening)
                 } else {
                     [0.0; L]

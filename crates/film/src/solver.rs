@@ -341,6 +341,7 @@ impl FilmSolver {
             .fill_gap(&self.grid, &position, &rate, &mut film.gap);
         self.surfaces.turn_to(&self.bearing, &self.grid, state);
         self.surfaces.add_to(&self.grid, state, &mut film.gap);
+        film.press_back();
         film.give_way();
         let is_ring = self.bearing.inlet == Inlet::Cyclic;
         let ends = film.end_opening(&self.bearing);
@@ -359,7 +360,7 @@ impl FilmSolver {
             };
             passage.narrow(&mut film.gap, &around);
         }
-        film.touch(&self.bearing);
+        film.touch();
 
         mark_fed_cells(
             &self.bearing,
@@ -412,6 +413,7 @@ impl FilmSolver {
             compression: &self.lubricant.density_pressure,
             passage: self.film.passage.as_ref(),
             contact: &self.film.contact,
+            yielding: &self.film.yielding,
             film_fraction: &self.film.film_fraction,
             held: self.film.held(),
             excess: &self.film.excess,

@@ -4,6 +4,8 @@
 use super::FilmState;
 use crate::bearing::{Bearing, Inlet};
 use crate::cavitation::CavitationModel;
+use crate::finish::Finish;
+use crate::integrals::Units;
 use crate::nonlinear::EndOpening;
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::Cell;
@@ -92,14 +94,18 @@ impl FilmState {
             }
             if let Some(displacement) = self.expansion.displacement.get_mut(k) {
                 let compliance = self.compliance * unit / self.units.clearance;
-                let contact = self.contact.get(k).map_or([0.0; 2], |contact| *contact);
-                let fed = self.set.cells[k] == Cell::Fed;
-                let next = if fed {
-                    0.0
-                } else {
-                    compliance * (pressure.max(0.0) + contact[0])
-                };
                 let height = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height)[k];
+                let fed = self.set.cells[k] == Cell::Fed;
+                let (next, yielding) = if fed {
+                    (0.0, 1.0)
+                } else {
+                    let asperities = Asperities {
+                        finish: &self.finish,
+                        units: &self.units,
+                        compliance,
+                    };
+                    asperities.displaced(height - displacement[0], compliance * pressure.max(0.0))
+                };
                 // A step that opens the gap by more than it is has left what its slopes are good for.
                 let most = 0.5 * height.abs().max(displacement[0].abs()).max(1e-3);
                 let moved = (next - displacement[0]).clamp(-most, most);
@@ -108,11 +114,43 @@ impl FilmState {
                 let slope = if fed || pressure <= 0.0 {
                     0.0
                 } else {
-                    compliance * slope
+                    compliance * slope * yielding
                 };
                 *displacement = [displacement[0] + moved, slope];
             }
             self.expansion.content[k] = content;
+        }
+    }
+
+    /// Lets the asperities of every cell press the shell back until both agree, at the pressures of the last
+    /// solution, before the gap of the rigid shapes is opened.
+    pub(crate) fn press_back(&mut self) {
+        if !self.finish.has_contact() || self.expansion.displacement.is_empty() {
+            return;
+        }
+        let compliance = self.compliance * self.units.pressure / self.units.clearance;
+        let asperities = Asperities {
+            finish: &self.finish,
+            units: &self.units,
+            compliance,
+        };
+        self.yielding.resize(self.pressure.len(), 1.0);
+        for k in 0..self.pressure.len() {
+            if self.set.cells[k] == Cell::Fed {
+                self.yielding[k] = 1.0;
+                continue;
+            }
+            let pressure = self.stiffened.get(k).map_or(self.pressure[k], |[p, _]| *p);
+            let by_film = compliance * pressure.max(0.0);
+            let (displacement, yielding) = asperities.displaced(self.gap.mean[k], by_film);
+            let slope = self.stiffened.get(k).map_or(1.0, |[_, slope]| *slope);
+            let moves = if pressure > 0.0 {
+                compliance * slope * yielding
+            } else {
+                0.0
+            };
+            self.expansion.displacement[k] = [displacement, moves];
+            self.yielding[k] = yielding;
         }
     }
 
@@ -133,10 +171,48 @@ impl FilmState {
 
     /// Keeps the gap of a soft shell open where the rigid shapes overlap: it has given way at least as far.
     pub(crate) fn give_way(&mut self) {
+        if self.passage.is_some() && self.finish.has_contact() {
+            // Asperities hold it open, and rough surfaces leave a mean gap wherever they are.
+            return;
+        }
         const LEAST: f64 = 2e-3;
         let heights = self.gap.mean.iter();
         for (displacement, height) in self.expansion.displacement.iter_mut().zip(heights) {
             displacement[0] = displacement[0].max(LEAST - height);
         }
+    }
+}
+
+/// Asperities that press on a soft shell.
+struct Asperities<'a> {
+    finish: &'a Finish,
+    units: &'a Units,
+    /// Displacement over the clearance per pressure of the film's unit.
+    compliance: f64,
+}
+
+impl Asperities<'_> {
+    /// Displacement u over the clearance where the film alone makes `by_film`, `u = by_film + k p_c(H + u)`,
+    /// and by how much the gap then falls as that of the rigid shapes, `rigid`, does. The right side falls
+    /// with u and bends upwards, so that Newton's steps from below do not overshoot.
+    fn displaced(&self, rigid: f64, by_film: f64) -> (f64, f64) {
+        const STEPS: usize = 40;
+        const ROUND_OFF: f64 = 1e-13;
+        if !self.finish.has_contact() || self.compliance == 0.0 {
+            return (by_film, 1.0);
+        }
+        let (clearance, unit) = (self.units.clearance, self.units.pressure);
+        let (mut u, mut slope) = (by_film, 0.0);
+        for _ in 0..STEPS {
+            let contact = self.finish.contact_pressure((rigid + u) * clearance);
+            slope = self.compliance * contact.by_gap * clearance / unit;
+            let missing = by_film + self.compliance * contact.value / unit - u;
+            let step = missing / (1.0 - slope);
+            u += step;
+            if step.abs() <= ROUND_OFF * (rigid.abs() + u.abs()) {
+                break;
+            }
+        }
+        (u, 1.0 / (1.0 - slope))
     }
 }
