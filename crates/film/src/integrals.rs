@@ -269,9 +269,10 @@ impl SolvedFilm<'_> {
     #[must_use]
     pub fn tangent<const L: usize>(&self, adjoints: &[Lanes<L>], storage: Storage<'_>) -> Tangent {
         let (mut by_position, mut by_rate) = (Sensitivity::<L>::new(), Sensitivity::<L>::new());
-        self.sensitivity_around(adjoints, &mut by_position);
-        self.sensitivity_axial(adjoints, &mut by_position);
-        self.sensitivity_contact(&mut by_position);
+        let mut yielded = vec![[0.0; L]; self.yielding.len()];
+        self.sensitivity_around(adjoints, &mut yielded, &mut by_position);
+        self.sensitivity_axial(adjoints, &mut yielded, &mut by_position);
+        self.sensitivity_contact(&yielded, &mut by_position);
         match storage {
             Storage::Rate => {
                 self.sensitivity_storage(adjoints, [1.0, 0.0], &[], &mut by_rate);
@@ -293,7 +294,12 @@ impl SolvedFilm<'_> {
         }
     }
 
-    fn sensitivity_around<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
+    fn sensitivity_around<const L: usize>(
+        &self,
+        adjoints: &[Lanes<L>],
+        yielded: &mut [Lanes<L>],
+        by: &mut Sensitivity<L>,
+    ) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         let is_ring = self.operator.west(0, 0).is_some();
         let last = if is_ring { n } else { n + 1 };
@@ -320,15 +326,21 @@ impl SolvedFilm<'_> {
                 };
                 let conducted = conducting * self.operator.conductance_around[face];
                 let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
-                let by_height = by_height * self.yielding_between(before, behind);
                 let value = |cell: Option<usize>| cell.map_or([0.0; L], |k| adjoints[k]);
-                sums.add(value(before), value(behind), by_height, self.grid.axial[j]);
+                let sides = [value(before), value(behind)];
+                sums.add(sides[0], sides[1], by_height, self.grid.axial[j]);
+                self.add_yielded([before, behind], sides, by_height, yielded);
             }
             by.add(&sums, self.angles.faces[i]);
         }
     }
 
-    fn sensitivity_axial<const L: usize>(&self, adjoints: &[Lanes<L>], by: &mut Sensitivity<L>) {
+    fn sensitivity_axial<const L: usize>(
+        &self,
+        adjoints: &[Lanes<L>],
+        yielded: &mut [Lanes<L>],
+        by: &mut Sensitivity<L>,
+    ) {
         let (n, m) = (self.grid.n_around(), self.grid.n_axial());
         for i in 0..n {
             let gap = &self.gap.axial[i * (m + 1)..(i + 1) * (m + 1)];
@@ -336,24 +348,24 @@ impl SolvedFilm<'_> {
             let pressure = &self.pressure[i * m..(i + 1) * m];
             let adjoints = &adjoints[i * m..(i + 1) * m];
             let faces = &self.grid.axial_faces;
-            let slope = |j: usize| {
-                let slope = match self.passage {
-                    Some(passage) => passage.axial_slopes[i * (m + 1) + j],
-                    None => 3.0 / gap[j],
-                };
-                let before = (j > 0).then(|| i * m + j - 1);
-                slope * self.yielding_between(before, (j < m).then_some(i * m + j))
+            let slope = |j: usize| match self.passage {
+                Some(passage) => passage.axial_slopes[i * (m + 1) + j],
+                None => 3.0 / gap[j],
             };
             let mut sums = StationSums::<L>::new();
-            let first = slope(0) * self.set_flow_at_end(i, 0);
-            sums.add([0.0; L], adjoints[0], first, faces[0]);
-            for j in 1..m {
-                let flow = conductance[j] * (pressure[j - 1] - pressure[j]);
+            for j in 0..=m {
+                let flow = if j == 0 || j == m {
+                    self.set_flow_at_end(i, j)
+                } else {
+                    conductance[j] * (pressure[j - 1] - pressure[j])
+                };
                 let by_height = slope(j) * flow;
-                sums.add(adjoints[j - 1], adjoints[j], by_height, faces[j]);
+                let before = if j > 0 { adjoints[j - 1] } else { [0.0; L] };
+                let behind = if j < m { adjoints[j] } else { [0.0; L] };
+                sums.add(before, behind, by_height, faces[j]);
+                let cells = [(j > 0).then(|| i * m + j - 1), (j < m).then_some(i * m + j)];
+                self.add_yielded(cells, [before, behind], by_height, yielded);
             }
-            let last = slope(m) * self.set_flow_at_end(i, m);
-            sums.add(adjoints[m - 1], [0.0; L], last, faces[m]);
             by.add(&sums, self.angles.centres[i]);
         }
     }
@@ -409,8 +421,9 @@ impl SolvedFilm<'_> {
         }
     }
 
-    /// Of the asperities that touch: their pressure follows the gap of their own cell.
-    fn sensitivity_contact<const L: usize>(&self, by: &mut Sensitivity<L>) {
+    /// Of the asperities that touch: their pressure follows the gap of their own cell, and so does what
+    /// they press back.
+    fn sensitivity_contact<const L: usize>(&self, yielded: &[Lanes<L>], by: &mut Sensitivity<L>) {
         if self.contact.is_empty() {
             return;
         }
@@ -418,8 +431,12 @@ impl SolvedFilm<'_> {
         for i in 0..self.grid.n_around() {
             let mut sums = StationSums::<L>::new();
             for j in 0..m {
-                if let Some(outputs) = self.contact_by_height::<L>(i * m + j) {
+                let k = i * m + j;
+                if let Some(outputs) = self.contact_by_height::<L>(k) {
                     sums.add([0.0; L], outputs, 1.0, self.grid.axial[j]);
+                }
+                if let Some(pressed) = yielded.get(k) {
+                    sums.add(*pressed, [0.0; L], 1.0, self.grid.axial[j]);
                 }
             }
             by.add(&sums, self.angles.means[i]);
@@ -461,13 +478,24 @@ impl SolvedFilm<'_> {
         }
     }
 
-    /// By how much the gap at a face falls as that of the rigid shapes does: half from either side.
-    fn yielding_between(&self, before: Option<usize>, behind: Option<usize>) -> f64 {
-        if self.yielding.is_empty() {
-            return 1.0;
+    /// Half of what the gap at a face does not follow the rigid shapes belongs to the cell on either side:
+    /// its asperities press the shell back.
+    fn add_yielded<const L: usize>(
+        &self,
+        cells: [Option<usize>; 2],
+        [before, behind]: [Lanes<L>; 2],
+        by_height: f64,
+        yielded: &mut [Lanes<L>],
+    ) {
+        if yielded.is_empty() {
+            return;
         }
-        let of = |cell: Option<usize>| cell.map_or(1.0, |k| self.yielding[k]);
-        0.5 * (of(before) + of(behind))
+        for k in cells.into_iter().flatten() {
+            let share = 0.5 * (self.yielding[k] - 1.0) * by_height;
+            for output in 0..L {
+                yielded[k][output] += share * (before[output] - behind[output]);
+            }
+        }
     }
 
     /// Load on the journal per pressure of a cell: a shell that gives way takes load off its asperities.
