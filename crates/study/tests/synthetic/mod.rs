@@ -98,6 +98,7 @@ pub fn header(analysis: &str, title: &str) -> Header {
         grid: Some([128, 32]),
         limits: Vec::new(),
         heat: None,
+        plain: None,
     }
 }
 
@@ -331,6 +332,8 @@ fn field_on(grid: [usize; 2], width: f64, state: &JournalState, peak: f64) -> Fi
         pressure: Vec::new(),
         film_fraction: Vec::new(),
         film_thickness: Vec::new(),
+        contact_pressure: Vec::new(),
+        temperature: Vec::new(),
         angles: angles.clone(),
         axial: axial.clone(),
     };
