@@ -49,7 +49,9 @@ impl Quantity {
 
     /// The quantities that a film has.
     pub fn among(field: &FieldSnapshot) -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(|one| !one.of(field).is_empty())
+        Self::ALL
+            .into_iter()
+            .filter(|one| !one.of(field).is_empty())
     }
 
     fn in_view<'f>(self, field: &FilmField<'f>) -> &'f [f64] {
@@ -128,7 +130,8 @@ impl FieldSpool {
 
     fn write(&mut self, field: &FilmField<'_>) -> io::Result<()> {
         let cells = field.pressure.len();
-        let mut bytes: Vec<u8> = Vec::with_capacity(self.quantities.len() * cells * size_of::<f32>());
+        let mut bytes: Vec<u8> =
+            Vec::with_capacity(self.quantities.len() * cells * size_of::<f32>());
         for quantity in &self.quantities {
             // Every instant takes the same room, whatever the film shows of it.
             let values = quantity.in_view(field).iter().copied();
@@ -224,7 +227,9 @@ mod tests {
         assert_eq!(spool.quantities(), &Quantity::ALL[..4]);
         let mut values = [0.0];
         for (number, found) in [(0, 10.0), (1, 20.0)] {
-            spool.read(Quantity::ContactPressure, number, &mut values).unwrap();
+            spool
+                .read(Quantity::ContactPressure, number, &mut values)
+                .unwrap();
             assert_eq!(values, [found]);
         }
         assert!(spool.read(Quantity::Temperature, 0, &mut values).is_err());

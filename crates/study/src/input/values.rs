@@ -410,10 +410,7 @@ fn whole_numbers(list: &[Spanned<DeValue<'_>>], low: i64, high: i64) -> Result<V
         .collect()
 }
 
-fn words(
-    list: &[Spanned<DeValue<'_>>],
-    built: &'static [&'static str],
-) -> Result<Value, Refusal> {
+fn words(list: &[Spanned<DeValue<'_>>], built: &'static [&'static str]) -> Result<Value, Refusal> {
     let mut words: Vec<String> = Vec::new();
     for value in list {
         let at = |refusal: Refusal| Refusal {

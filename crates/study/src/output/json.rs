@@ -133,7 +133,9 @@ fn plain_keys(plain: &PlainRun) -> Value {
         _ => Map::new(),
     };
     if let Value::Object(keys) = &mut keys {
-        let compared = found.into_iter().filter(|(key, _)| COMPARED.contains(&key.as_str()));
+        let compared = found
+            .into_iter()
+            .filter(|(key, _)| COMPARED.contains(&key.as_str()));
         keys.extend(compared);
     }
     keys
@@ -491,8 +493,8 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         let angle = contact.map(|p| degrees(p.crank_angle));
         keys.insert("peak_contact_pressure_angle_deg".into(), json!(angle));
     }
-    if let Some(least) =
-        thinnest.and_then(|p| film_parameter(&cycle.bearing, p.summary.minimum_film_thickness.value))
+    if let Some(least) = thinnest
+        .and_then(|p| film_parameter(&cycle.bearing, p.summary.minimum_film_thickness.value))
     {
         keys["film_parameter"] = json!(least);
     }

@@ -474,9 +474,11 @@ fn edge_contact_message(edge: usize, at: &str) -> String {
     )
 }
 
-/// Sets the status and says what it means and what to do.
+/// Sets the status and says what it means and what to do. What went wrong before stays wrong.
 fn note_outcome(outcome: Outcome, header: &mut Header) {
-    header.status = outcome;
+    if outcome != Outcome::Converged {
+        header.status = outcome;
+    }
     if let Some(message) = outcome_message(outcome, &header.analysis) {
         header.messages.insert(0, message.to_owned());
     }

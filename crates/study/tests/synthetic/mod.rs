@@ -5,6 +5,8 @@
 
 #[allow(dead_code, reason = "not every test needs a machine")]
 pub mod machine;
+#[allow(dead_code, reason = "not every test needs rough surfaces")]
+pub mod mixed;
 
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};
 use sommerfeld_film::{
