@@ -85,8 +85,9 @@ def test_contact_and_temperature_are_fields_where_they_are_calculated(mixed, ste
         assert abs(np.linalg.norm(force - alone) / carried - 1) < 0.02
         # The summary sees the peak between cells too.
         assert 0.8 < contact.max() / summary["peak_contact_pressure_pa"] < 1 + 1e-9
+        # The film was solved in the temperatures of the round before the last one.
         hottest = summary["hottest_temperature_degc"] + 273.15
-        assert np.isclose(temperature.max(), hottest, rtol=1e-12)
+        assert abs(temperature.max() - hottest) <= summary["temperature_changes_k"][-1] < 0.1
         compare(file["summary/comparison/plain"], summary["comparison"]["plain"])
         assert file["summary/comparison/plain/minimum_film_thickness_m"][()] > 0
     for results, group in [(steady, "film"), (cycle, "fields")]:

@@ -53,7 +53,9 @@ def test_contact_and_temperature_are_shown_where_they_are_calculated(mixed):
     own = ["contact pressure [Pa]", "temperature [K]"]
     assert sorted(film.cell_data.keys()) == sorted(NAMES + own)
     hottest = mixed.summary["hottest_temperature_degc"] + 273.15
-    assert abs(film.cell_data["temperature [K]"].max() / hottest - 1) < 1e-6
+    # As in results.h5, and single precision.
+    bar = mixed.summary["temperature_changes_k"][-1] + 1e-4
+    assert abs(film.cell_data["temperature [K]"].max() - hottest) <= bar < 0.1
     assert 0 < film.cell_data["contact pressure [Pa]"].max() <= mixed.summary["peak_contact_pressure_pa"] * (1 + 1e-6)
 
 

@@ -11,8 +11,8 @@ use std::path::Path;
 const BEARING: &str = "[bearing]\ndiameter = \"72 mm\"\nwidth = \"30 mm\"\n";
 const SURFACE: &str = "[bearing.surface]\nroughness_journal = \"0.3 um\"\nroughness_shell = \"0.4 um\"\n\
     boundary_friction = 0.08\ncontact = { law = \"greenwood-tripp\", factor = 1e-3, \
-    asperity_product = 0.05, modulus = \"53.3 GPa\" }\n\
-    [bearing.shell]\nelastic = \"layer\"\nthickness = \"2 mm\"\nmodulus = \"29 GPa\"\npoisson = 0.33\n";
+    asperity_product = 0.05, modulus = \"53.3 GPa\" }\n";
+const LAYER: &str = "[bearing.shell]\nelastic = \"layer\"\nthickness = \"2 mm\"\nmodulus = \"29 GPa\"\npoisson = 0.33\n";
 const OIL: &str = "[oil]\nviscosity = { law = \"vogel\", a = \"0.0669 mPa.s\", b = \"1041 K\", c = \"-164.15 K\" }\n\
     viscosity_pressure = { law = \"roelands\", alpha = \"12 1/GPa\" }\n";
 const COMPARE: &str = "compare = [\"plain\"]\n";
@@ -23,7 +23,7 @@ fn duty(analysis: &str) -> &'static str {
         "film" => "[operation]\nspeed = \"1000 rpm\"\nrelative_eccentricity = 0.9\n",
         "equilibrium" => "[operation]\nspeed = \"300 rpm\"\nload = [\"20 kN\", \"0 N\"]\n",
         _ => {
-            "[load_cycle]\nfile = \"tests/bad_inputs/loads.csv\"\nengine_speed = \"2000 rpm\"\n\
+            "[load_cycle]\nfile = \"../../examples/02-big-end-diesel/loads.csv\"\nengine_speed = \"2000 rpm\"\n\
              period = \"720 deg\"\ncrank_step = \"6 deg\"\n"
         }
     }
@@ -66,7 +66,7 @@ fn is_of(compared: &Value, plain: &Value, least: usize) {
 fn the_plain_bearing_is_the_one_written_by_hand() {
     for analysis in ["film", "equilibrium"] {
         let real = run(&format!(
-            "{}{SURFACE}{OIL}temperature = \"90 degC\"\n{FILM}{COMPARE}{}",
+            "{}{SURFACE}{LAYER}{OIL}temperature = \"90 degC\"\n{FILM}{COMPARE}{}",
             head(analysis, "72 um"),
             duty(analysis)
         ));

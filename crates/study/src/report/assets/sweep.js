@@ -9,11 +9,18 @@ globalThis.sommerfeld.parts.push((report) => {
   const { inputs, status, labels, joined: style } = data.sweep;
   const [along, second] = inputs;
   const isNumber = (input) => input.values.every((value) => typeof value === "number");
-  // Values over decades stand on a scale of decades.
+  // A scale of decades with its numbers written out.
+  const decades = (low, high) => {
+    const [first, last] = [Math.floor(Math.log10(low)), Math.ceil(Math.log10(high))];
+    const steps = last - first > 4 ? [1] : [1, 2, 5];
+    const places = Array.from({ length: last - first + 1 }, (_, i) => first + i).flatMap((power) => steps.map((step) => Number(`${step}e${power}`)));
+    return { type: "log", tickvals: places, ticktext: places.map((place) => (place < 1e-4 || place >= 1e6 ? place.toExponential() : String(place))) };
+  };
+  // Values over decades stand on such a scale.
   const scaleOf = (input) => {
     if (!isNumber(input)) { return { type: "category" }; }
     const [low, high] = [Math.min(...input.values), Math.max(...input.values)];
-    return low > 0 && high > 20 * low ? { type: "log", dtick: "D2", minexponent: 9 } : { type: "linear" };
+    return low > 0 && high > 20 * low ? decades(low, high) : { type: "linear" };
   };
 
   function linesOf(figure) {
@@ -50,7 +57,8 @@ globalThis.sommerfeld.parts.push((report) => {
       text: "✕", hovertext: labels[i], showarrow: false, font: { color: theme.bad } }));
     const menus = style !== "none" ? [] : [{ x: 1, xanchor: "right", y: 1.02, yanchor: "bottom", bgcolor: theme.paper,
       buttons: inputs.map((input) => ({ label: input.label, method: "update", args: [{ x: [input.values] },
-        { "xaxis.title.text": input.label, "xaxis.type": scaleOf(input).type }, [0]] })) }];
+        { "xaxis.title.text": input.label, "xaxis.type": scaleOf(input).type, "xaxis.tickvals": scaleOf(input).tickvals ?? null,
+          "xaxis.ticktext": scaleOf(input).ticktext ?? null }, [0]] })) }];
     return { traces, layout: layout(axis(along.label, scaleOf(along)), axis(figure.label), {
       hovermode: "closest", showlegend: legend, updatemenus: menus, shapes: limits.shapes, annotations: [...limits.annotations, ...crosses],
       margin: { l: 58, r: 18, t: legend || menus.length ? 40 : 12, b: 46 } }) };
@@ -58,7 +66,7 @@ globalThis.sommerfeld.parts.push((report) => {
 
   // Friction, film and contact over one speed, one below the other.
   function stribeck() {
-    const panels = [["y", [0.5, 1]], ["y2", [0.24, 0.46]], ["y3", [0, 0.2]]];
+    const panels = [["y", [0.56, 1]], ["y2", [0.25, 0.51]], ["y3", [0, 0.2]]];
     const titles = ["Friction<br>coefficient [–]", "Film over<br>roughness [–]", "Contact<br>share [%]"];
     const traces = [];
     const axes = {};
@@ -75,7 +83,7 @@ globalThis.sommerfeld.parts.push((report) => {
       // Nominal gaps below zero, where asperities carry, have no place on a scale of decades.
       const found = figure.values.filter((value) => value !== null);
       const isWide = at < 2 && Math.min(...found) > 0 && Math.max(...found) > 10 * Math.min(...found);
-      const scale = isWide ? { type: "log", dtick: "D2", minexponent: 9 } : { rangemode: "tozero" };
+      const scale = isWide ? decades(Math.min(...found), Math.max(...found)) : { rangemode: "tozero" };
       axes[name.replace("y", "yaxis")] = axis(titles[at], Object.assign({ domain, anchor: "x" }, scale));
     });
     const xaxis = axis(along.label, Object.assign(scaleOf(along), { anchor: "y3" }));
