@@ -134,7 +134,7 @@ fn the_plain_bearing_is_as_warm() {
 #[test]
 fn a_position_without_a_plain_film_is_named() {
     let text = format!(
-        "{}{SURFACE}{OIL}{FILM}{COMPARE}[operation]\nspeed = \"100 rpm\"\nrelative_eccentricity = 1.005\n",
+        "{}{SURFACE}[oil]\nviscosity = \"8 mPa.s\"\n{FILM}{COMPARE}[operation]\nspeed = \"100 rpm\"\nrelative_eccentricity = 1.005\n",
         head("film", "72 um")
     );
     let found = run(&text);

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+#[allow(dead_code, reason = "other tests need the rest")]
 mod synthetic;
 
 use serde_json::Value;
