@@ -69,6 +69,56 @@ def steady(tmp_path_factory):
     return run(study, tmp_path_factory.mktemp("steady"))
 
 
+MIXED = """
+schema = 1
+title = "Slow bearing, rough and warm"
+analysis = "equilibrium"
+
+[bearing]
+diameter = "72 mm"
+width = "30 mm"
+diametral_clearance = "72 um"
+
+[[bearing.groove]]
+kind = "axial"
+angle = "180 deg"
+length = "10 mm"
+width = "24 mm"
+pressure = "2 bar"
+
+[bearing.surface]
+roughness_journal = "0.2 um"
+roughness_shell = "0.4 um"
+boundary_friction = 0.08
+contact = { law = "greenwood-tripp", factor = 1e-3, asperity_product = 0.05, modulus = "53.3 GPa" }
+
+[oil]
+oil = "nominal-5w-30"
+
+[heat]
+model = "field"
+supply_temperature = "80 degC"
+wall_coefficient = "20000 W/(m2.K)"
+wall_temperature = "85 degC"
+
+[film]
+grid = [96, 24]
+compare = ["plain"]
+
+[operation]
+speed = "150 rpm"
+load = ["30 kN", "0 N"]
+"""
+
+
+@pytest.fixture(scope="session")
+def mixed(tmp_path_factory):
+    """An equilibrium with contact and a field of temperature, beside a plain bearing."""
+    study = tmp_path_factory.mktemp("study") / "study.toml"
+    study.write_text(MIXED)
+    return run(study, tmp_path_factory.mktemp("mixed"))
+
+
 @pytest.fixture(scope="session")
 def cycle(tmp_path_factory):
     """A load cycle with the fields of every crank angle."""

@@ -39,7 +39,7 @@ def film_force(pressure, angle, axial, bearing):
     return -np.array([(load * np.cos(phi)[:, None]).sum(), (load * np.sin(phi)[:, None]).sum()])
 
 
-@pytest.mark.parametrize("name", ["steady", "cycle", "cycle_frames", "dimensionless", "engine"])
+@pytest.mark.parametrize("name", ["steady", "mixed", "cycle", "cycle_frames", "dimensionless", "engine"])
 def test_every_dataset_says_what_it_is(name, request):
     results = request.getfixturevalue(name)
     with h5py.File(results.path("results.h5")) as file:
@@ -66,6 +66,33 @@ def test_numbers_are_those_of_the_summary(steady, cycle, dimensionless):
     for results in [steady, cycle, dimensionless]:
         with h5py.File(results.path("results.h5")) as file:
             compare(file["summary"], results.summary)
+
+
+def test_contact_and_temperature_are_fields_where_they_are_calculated(mixed, steady, cycle):
+    with h5py.File(mixed.path("results.h5")) as file:
+        film, summary = file["film"], mixed.summary
+        assert film["contact_pressure"].attrs["units"] == "Pa"
+        assert film["temperature"].attrs["units"] == "K"
+        contact, temperature = film["contact_pressure"][:], film["temperature"][:]
+        assert contact.shape == temperature.shape == film["pressure"].shape
+        # The load goes to film and asperities: the force is that of both pressures.
+        together = film["pressure"][:] + contact
+        force = film_force(together, film["angle"], film["axial"], file["bearing"])
+        assert np.linalg.norm(force - summary["force_n"]) < 0.01 * 30e3
+        alone = film_force(film["pressure"][:], film["angle"], film["axial"], file["bearing"])
+        carried = summary["contact_load_share"] * 30e3
+        assert carried > 100
+        assert abs(np.linalg.norm(force - alone) / carried - 1) < 0.02
+        # The summary sees the peak between cells too.
+        assert 0.8 < contact.max() / summary["peak_contact_pressure_pa"] < 1 + 1e-9
+        # The film was solved in the temperatures of the round before the last one.
+        hottest = summary["hottest_temperature_degc"] + 273.15
+        assert abs(temperature.max() - hottest) <= summary["temperature_changes_k"][-1] < 0.1
+        compare(file["summary/comparison/plain"], summary["comparison"]["plain"])
+        assert file["summary/comparison/plain/minimum_film_thickness_m"][()] > 0
+    for results, group in [(steady, "film"), (cycle, "fields")]:
+        with h5py.File(results.path("results.h5")) as file:
+            assert not {"contact_pressure", "temperature"} & set(file[group])
 
 
 def compare(group, summary):

@@ -48,6 +48,17 @@ def test_the_steady_film_is_that_of_the_table(steady):
     assert np.abs(1e3 * centres[:, 2] - table["axial[mm]"]).max() < 0.2
 
 
+def test_contact_and_temperature_are_shown_where_they_are_calculated(mixed):
+    film = read(mixed).read()[0]
+    own = ["contact pressure [Pa]", "temperature [K]"]
+    assert sorted(film.cell_data.keys()) == sorted(NAMES + own)
+    hottest = mixed.summary["hottest_temperature_degc"] + 273.15
+    # As in results.h5, and single precision.
+    bar = mixed.summary["temperature_changes_k"][-1] + 1e-4
+    assert abs(film.cell_data["temperature [K]"].max() - hottest) <= bar < 0.1
+    assert 0 < film.cell_data["contact pressure [Pa]"].max() <= mixed.summary["peak_contact_pressure_pa"] * (1 + 1e-6)
+
+
 def test_the_pressure_carries_the_load(steady, cycle):
     force, area = integrate(read(steady).read()[0])
     assert abs(area / (np.pi * 0.100 * 0.050) - 1) < 1e-3

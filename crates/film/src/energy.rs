@@ -402,6 +402,10 @@ impl HeatAccount {
         }
         let (coefficient, wall) = surroundings.wall;
         for (k, rise) in cells.iter().enumerate() {
+            // A cell that nothing flows into is none of the balance: a groove's walls are not the film's.
+            if system.stands_still[k] {
+                continue;
+            }
             balance.conducted += coefficient * self.area[k] * (rise - (wall - reference));
             // Inflow less outflow: what the closure lost in the cell. What it made brought no rise.
             balance.unconserved += unit * (system.inflow[k] - system.outflow[k]) * rise;
@@ -678,6 +682,31 @@ mod tests {
         };
         let (coarse, fine) = (error(40), error(80));
         assert!((coarse / fine - 2.0).abs() < 0.1, "{coarse} {fine}");
+    }
+
+    /// Walls beside a groove take heat from the film alone, and the balance of all cells closes.
+    #[test]
+    fn walls_beside_a_groove_are_in_the_balance() {
+        let (n, m) = (20, 2);
+        let grid = uniform(n, m);
+        let mut account = HeatAccount::new(&grid, 0.05, true, 1);
+        let mut fed_by = vec![None; n * m];
+        fed_by[..2 * m].fill(Some(0));
+        let mut around = vec![2e-5; (n + 1) * m];
+        around[m..2 * m].fill(0.0);
+        let instant = HeatInstant {
+            around: &around,
+            axial: &vec![0.0; n * (m + 1)],
+            heat: &vec![1.5; n * m],
+            fed_by: &fed_by,
+        };
+        account.add(&instant, 1.0);
+        let mut walls = surroundings(&[350.0]);
+        walls.wall = (20_000.0, 355.0);
+        let found = account.temperature(&walls).unwrap();
+        assert!(found.balance.conducted.abs() > 1.0);
+        let error = found.balance.relative_error();
+        assert!(error < 1e-12, "{error:e} {:?}", found.balance);
     }
 
     #[test]

@@ -17,10 +17,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .nth(1)
         .map_or_else(|| PathBuf::from("report-preview"), PathBuf::from);
     let title = "Synthetic data: a preview of the layout, not a calculation";
+    let [mixed_steady, mixed_cycle] = synthetic::mixed::both(title);
     let previews = [
         ("load-cycle", synthetic::load_cycle(title)),
         ("not-converged", synthetic::load_cycle_not_converged(title)),
         ("steady", synthetic::steady(title)),
+        ("mixed-steady", mixed_steady),
+        ("mixed-cycle", mixed_cycle),
         ("dimensionless", synthetic::dimensionless(title)),
         ("engine", synthetic::machine::inline_six(title, 1, true)),
         (

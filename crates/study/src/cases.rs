@@ -379,10 +379,11 @@ const UNITS: &[(&str, &str)] = &[
 
 /// The column of a key: its unit comes last in the key, before the axis of a vector.
 fn column_of(key: String) -> Column {
-    let (of_error, plain) = match key.strip_prefix("error.") {
-        Some(plain) => ("_error", plain),
-        None => ("", key.as_str()),
-    };
+    let prefixes = [("error.", "_error"), ("comparison.plain.", "_plain")];
+    let found = prefixes
+        .iter()
+        .find_map(|(prefix, end)| Some((*end, key.strip_prefix(prefix)?)));
+    let (suffix, plain) = found.unwrap_or(("", key.as_str()));
     let (stem, part) = match plain.split_once('.') {
         Some((stem, part)) => (stem, format!("_{part}")),
         None => (plain, String::new()),
@@ -397,7 +398,7 @@ fn column_of(key: String) -> Column {
         unit => unit,
     };
     Column {
-        name: format!("{stem}{part}{of_error}"),
+        name: format!("{stem}{part}{suffix}"),
         unit,
         key,
     }

@@ -28,7 +28,12 @@ pub fn warnings(results: &Results) -> Vec<String> {
     }
     let thinnest = results.limited_value(Quantity::MinimumFilmThickness);
     let peak = results.limited_value(Quantity::PeakFilmPressure);
-    let thinnest = thinnest.and_then(thin_film);
+    let knows_contact = match &results.body {
+        Body::Steady(steady) => steady.bearing.finish.has_contact(),
+        Body::LoadCycle(cycle) => cycle.bearing.finish.has_contact(),
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => false,
+    };
+    let thinnest = thinnest.filter(|_| !knows_contact).and_then(thin_film);
     let peak = peak.and_then(high_pressure);
     thinnest.into_iter().chain(peak).collect()
 }

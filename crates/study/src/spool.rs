@@ -4,6 +4,7 @@
 //! holds one instant, whatever the number of crank angles. Values are single precision, 7 digits: a
 //! film on a grid is not known better.
 
+use crate::results::FieldSnapshot;
 use sommerfeld_film::FilmField;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -18,11 +19,50 @@ pub enum Quantity {
     FilmFraction,
     /// Film thickness, m.
     FilmThickness,
+    /// Contact pressure of asperities, Pa.
+    ContactPressure,
+    /// Temperature, K.
+    Temperature,
 }
 
 impl Quantity {
-    /// All of them, in the order in which they are stored.
-    pub const ALL: [Self; 3] = [Self::Pressure, Self::FilmFraction, Self::FilmThickness];
+    /// All of them, in the order in which they are stored. The first three every film has.
+    pub const ALL: [Self; 5] = [
+        Self::Pressure,
+        Self::FilmFraction,
+        Self::FilmThickness,
+        Self::ContactPressure,
+        Self::Temperature,
+    ];
+
+    /// Its field in a film; empty where that has none.
+    #[must_use]
+    pub fn of(self, field: &FieldSnapshot) -> &[f64] {
+        match self {
+            Self::Pressure => &field.pressure,
+            Self::FilmFraction => &field.film_fraction,
+            Self::FilmThickness => &field.film_thickness,
+            Self::ContactPressure => &field.contact_pressure,
+            Self::Temperature => &field.temperature,
+        }
+    }
+
+    /// The quantities that a film has.
+    pub fn among(field: &FieldSnapshot) -> impl Iterator<Item = Self> {
+        Self::ALL
+            .into_iter()
+            .filter(|one| !one.of(field).is_empty())
+    }
+
+    fn in_view<'f>(self, field: &FilmField<'f>) -> &'f [f64] {
+        match self {
+            Self::Pressure => field.pressure,
+            Self::FilmFraction => field.film_fraction,
+            Self::FilmThickness => field.film_thickness,
+            Self::ContactPressure => field.contact_pressure,
+            Self::Temperature => field.temperature,
+        }
+    }
 }
 
 /// Fields over one cycle in a file that nobody sees and that goes when this goes.
@@ -34,6 +74,8 @@ pub struct FieldSpool {
     angles: Vec<f64>,
     axial: Vec<f64>,
     crank_angles: Vec<f64>,
+    /// What is stored of each instant: what the film has at the first one.
+    quantities: Vec<Quantity>,
     failure: Option<io::Error>,
 }
 
@@ -58,6 +100,7 @@ impl FieldSpool {
             angles: Vec::new(),
             axial: Vec::new(),
             crank_angles: Vec::new(),
+            quantities: Vec::new(),
             failure: None,
         })
     }
@@ -73,6 +116,8 @@ impl FieldSpool {
         if self.crank_angles.is_empty() {
             self.angles = field.angles.to_vec();
             self.axial = field.axial.to_vec();
+            let has = |one: &Quantity| !one.in_view(field).is_empty();
+            self.quantities = Quantity::ALL.into_iter().filter(has).collect();
         }
         if self.failure.is_none() {
             match self.write(field) {
@@ -84,11 +129,15 @@ impl FieldSpool {
     }
 
     fn write(&mut self, field: &FilmField<'_>) -> io::Result<()> {
-        let values = [field.pressure, field.film_fraction, field.film_thickness].into_iter();
-        let bytes: Vec<u8> = values
-            .flatten()
-            .flat_map(|value| (*value as f32).to_le_bytes())
-            .collect();
+        let cells = field.pressure.len();
+        let mut bytes: Vec<u8> =
+            Vec::with_capacity(self.quantities.len() * cells * size_of::<f32>());
+        for quantity in &self.quantities {
+            // Every instant takes the same room, whatever the film shows of it.
+            let values = quantity.in_view(field).iter().copied();
+            let values = values.chain(std::iter::repeat(f64::NAN)).take(cells);
+            bytes.extend(values.flat_map(|value| (value as f32).to_le_bytes()));
+        }
         let place = self.crank_angles.len() as u64 * bytes.len() as u64;
         self.file.seek(SeekFrom::Start(place))?;
         self.file.write_all(&bytes)
@@ -117,15 +166,23 @@ impl FieldSpool {
         &self.axial
     }
 
+    /// What is stored of each instant.
+    #[must_use]
+    pub fn quantities(&self) -> &[Quantity] {
+        &self.quantities
+    }
+
     /// Reads the field of one quantity at the stored crank angle of this number into `values`, one for
     /// each cell.
     ///
     /// # Errors
-    /// What the disk says.
+    /// What the disk says, and a quantity that is not stored.
     pub fn read(&self, quantity: Quantity, number: usize, values: &mut [f32]) -> io::Result<()> {
         let size = (self.angles.len() * self.axial.len() * size_of::<f32>()) as u64;
-        let fields = Quantity::ALL.len() as u64;
-        let place = (number as u64 * fields + quantity as u64) * size;
+        let fields = self.quantities.len() as u64;
+        let found = self.quantities.iter().position(|one| *one == quantity);
+        let field = found.ok_or(io::ErrorKind::NotFound)? as u64;
+        let place = (number as u64 * fields + field) * size;
         let mut file = &self.file;
         file.seek(SeekFrom::Start(place))?;
         let mut bytes = vec![0; size as usize];
@@ -150,6 +207,33 @@ impl Drop for FieldSpool {
 #[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_film_with_contact_alone_stores_that_and_no_temperature() {
+        let directory = tempfile::tempdir().unwrap();
+        let mut spool = FieldSpool::create(directory.path()).unwrap();
+        for value in [1.0, 2.0] {
+            let field = FilmField {
+                angles: &[0.5],
+                axial: &[0.0],
+                pressure: &[value],
+                film_fraction: &[1.0],
+                film_thickness: &[3.0],
+                temperature: &[],
+                contact_pressure: &[10.0 * value],
+            };
+            assert!(spool.push(value, &field));
+        }
+        assert_eq!(spool.quantities(), &Quantity::ALL[..4]);
+        let mut values = [0.0];
+        for (number, found) in [(0, 10.0), (1, 20.0)] {
+            spool
+                .read(Quantity::ContactPressure, number, &mut values)
+                .unwrap();
+            assert_eq!(values, [found]);
+        }
+        assert!(spool.read(Quantity::Temperature, 0, &mut values).is_err());
+    }
 
     #[test]
     fn the_last_cycle_is_read_back() {

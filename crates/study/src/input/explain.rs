@@ -134,6 +134,7 @@ fn kind(kind: &Kind) -> String {
         Kind::Integers(..) => "a whole number, or a list of them".into(),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
+        Kind::Words(built) => format!("a list of {}", built.join(", ")),
         Kind::Choice(built, planned) => {
             format!(
                 "{} (not built yet: {})",

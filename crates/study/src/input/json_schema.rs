@@ -105,6 +105,9 @@ fn plain(kind: &Kind) -> Value {
             })
         }
         Kind::Choice(built, _) => json!({ "enum": built }),
+        Kind::Words(built) => json!({
+            "type": "array", "items": { "enum": built }, "uniqueItems": true,
+        }),
         Kind::Limit(dimension, _) => json!({
             "type": "object",
             "properties": { "value": quantity(dimension), "source": { "type": "string" } },

@@ -90,6 +90,8 @@ pub enum Kind {
     Grid,
     /// One of these words; the second list is planned, and refused by name.
     Choice(&'static [&'static str], &'static [&'static str]),
+    /// Some of these words.
+    Words(&'static [&'static str]),
     /// A design limit: `{ value = "..", source = ".." }`.
     Limit(Dimension, Range),
     /// Keys of a base study, each with its values.

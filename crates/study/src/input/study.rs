@@ -203,6 +203,8 @@ pub struct FilmSettings {
     /// Estimated error below which the grid is refined, over the scale of each figure; `None` takes
     /// the grid as it is.
     pub relative_error_target: Option<f64>,
+    /// The study is run once more with plain surfaces and oil, to compare.
+    pub compare_plain: bool,
 }
 
 /// A model of the film.

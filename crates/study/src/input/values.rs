@@ -19,6 +19,8 @@ pub(super) enum Value {
     Integer(i64),
     /// Text or one of the words of a choice.
     Text(String),
+    /// Words of a list, each once.
+    Words(Vec<String>),
     /// `true` or `false`.
     Flag(bool),
     /// Two quantities in SI.
@@ -164,6 +166,7 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
         }
         (Kind::Grid, DeValue::Array(list)) => grid(list).map(Value::Grid),
         (Kind::Choice(built, planned), DeValue::String(text)) => choice(text, built, planned),
+        (Kind::Words(built), DeValue::Array(list)) => words(list, built),
         (kind, value) => {
             let refusal = Refusal::new(format!(
                 "must be {}, not {}",
@@ -206,6 +209,10 @@ fn expected(kind: &Kind) -> String {
             format!("a list of quantities, [\"1 {unit}\", \"2 {unit}\"]")
         }
         Kind::Integers(..) => "a list of whole numbers, [1, 2]".into(),
+        Kind::Words(built) => {
+            let first = built.first().copied().unwrap_or_default();
+            format!("a list of words, [\"{first}\"]")
+        }
         Kind::Grid => "two whole numbers, [128, 32]".into(),
         Kind::Limit(..) => "a table { value = \"..\", source = \"..\" }".into(),
         Kind::Vary => "a table of keys with their values".into(),
@@ -401,6 +408,26 @@ fn whole_numbers(list: &[Spanned<DeValue<'_>>], low: i64, high: i64) -> Result<V
             })
         })
         .collect()
+}
+
+fn words(list: &[Spanned<DeValue<'_>>], built: &'static [&'static str]) -> Result<Value, Refusal> {
+    let mut words: Vec<String> = Vec::new();
+    for value in list {
+        let at = |refusal: Refusal| Refusal {
+            part: Some(value.span()),
+            ..refusal
+        };
+        let DeValue::String(text) = value.get_ref() else {
+            let wanted = expected(&Kind::Words(built));
+            return Err(at(Refusal::new(format!("must be {wanted}"))));
+        };
+        choice(text, built, &[]).map_err(at)?;
+        if words.iter().any(|word| word == text) {
+            return Err(at(Refusal::new("stands in the list twice")));
+        }
+        words.push(text.to_string());
+    }
+    Ok(Value::Words(words))
 }
 
 fn grid(list: &[Spanned<DeValue<'_>>]) -> Result<[usize; 2], Refusal> {

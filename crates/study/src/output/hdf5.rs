@@ -12,9 +12,9 @@
 //! | `error/` | absolute discretisation errors by key of `summary/` | runs with error bars |
 //! | `limits/<quantity>/` | `limit` and `value`; attributes `verdict`, `source`; of a machine `at`, the bearing and speed of the value | studies with limits |
 //! | `bearing/` | `diameter`, `width`, `radial_clearance` | bearings |
-//! | `film/` | `pressure`, `film_fraction`, `film_thickness` \[angle, axial\] with their axes | one state |
+//! | `film/` | `pressure`, `film_fraction`, `film_thickness` \[angle, axial\] with their axes; where asperities touch `contact_pressure`, where it is a field `temperature` (K) | one state |
 //! | `cycle/` | the columns of `cycle.csv` \[crank_angle\]; `converged`, 1 where the step did | load cycles |
-//! | `fields/` | `pressure`, `film_fraction`, `film_thickness` \[crank_angle, angle, axial\] with their axes, over the last cycle | load cycles with a film on a grid |
+//! | `fields/` | the same \[crank_angle, angle, axial\] with their axes, over the last cycle | load cycles with a film on a grid |
 //! | `accumulated/shell/`, `accumulated/journal/` | what each point of that surface has seen over the last cycle: `minimum_film_thickness`, `maximum_pressure`, `pressure_amplitude`, `full_film_share` \[angle, axial\], angles from +X of the surface; with wear `wear_load`, `friction_energy` of asperities, `peak_pressure_velocity`, `mean_pressure_velocity`, of the shell `wear_depth_per_hour` | the same |
 //!
 //! `[output] fields` of the study chooses the instants of `fields/`.
@@ -311,10 +311,11 @@ impl<W: Write + Seek> Layout<W> {
     }
 
     fn snapshot(&mut self, group: Node, field: &FieldSnapshot) -> io::Result<()> {
-        let maps = Quantity::ALL.map(|quantity| {
+        let maps = Quantity::among(field).map(|quantity| {
             let (name, unit) = name_of(quantity);
-            (name, unit, values_of(field, quantity))
+            (name, unit, quantity.of(field))
         });
+        let maps: Vec<_> = maps.collect();
         self.surface(group, &field.angles, &field.axial, &maps)
     }
 
@@ -355,6 +356,7 @@ impl<W: Write + Seek> Layout<W> {
         let (angles, axial) = (spool.angles(), spool.axial());
         self.over_cycle(
             place,
+            spool.quantities(),
             spool.crank_angles(),
             angles,
             axial,
@@ -366,13 +368,15 @@ impl<W: Write + Seek> Layout<W> {
         let frames = &fields.frames;
         let crank_angles: Vec<f64> = frames.iter().map(|frame| frame.crank_angle).collect();
         let grid = &fields.worst.field;
+        let quantities: Vec<Quantity> = Quantity::among(grid).collect();
         self.over_cycle(
             place,
+            &quantities,
             &crank_angles,
             &grid.angles,
             &grid.axial,
             &mut |quantity, row, values| {
-                let field = values_of(&frames[row].field, quantity);
+                let field = quantity.of(&frames[row].field);
                 for (value, found) in values.iter_mut().zip(field) {
                     *value = *found as f32;
                 }
@@ -385,6 +389,7 @@ impl<W: Write + Seek> Layout<W> {
     fn over_cycle(
         &mut self,
         place: Node,
+        quantities: &[Quantity],
         crank_angles: &[f64],
         angles: &[f64],
         axial: &[f64],
@@ -399,7 +404,7 @@ impl<W: Write + Seek> Layout<W> {
         axes.extend(surface_axes(angles, axial));
         let axes = self.axes(group, &axes)?;
         let shape = [crank_angles.len(), angles.len(), axial.len()];
-        for quantity in Quantity::ALL {
+        for &quantity in quantities {
             let (name, unit) = name_of(quantity);
             let mut row = |row: usize, values: &mut [f32]| read(quantity, row, values);
             let node = self.file.rows(group, name, &shape, &mut row)?;
@@ -427,14 +432,8 @@ fn name_of(quantity: Quantity) -> (&'static str, &'static str) {
         Quantity::Pressure => ("pressure", "Pa"),
         Quantity::FilmFraction => ("film_fraction", "1"),
         Quantity::FilmThickness => ("film_thickness", "m"),
-    }
-}
-
-fn values_of(field: &FieldSnapshot, quantity: Quantity) -> &[f64] {
-    match quantity {
-        Quantity::Pressure => &field.pressure,
-        Quantity::FilmFraction => &field.film_fraction,
-        Quantity::FilmThickness => &field.film_thickness,
+        Quantity::ContactPressure => ("contact_pressure", "Pa"),
+        Quantity::Temperature => ("temperature", "K"),
     }
 }
 

@@ -11,8 +11,8 @@ use crate::oil_holes::{OilHole, oil_holes};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{
     Body, CycleResults, DimensionlessResults, Dynamics, Header, HeatResults, InstantCoefficients,
-    PROGRAM, Results, SCHEMA, SteadyResults, VERSION, degrees, magnitude, specific_load,
-    stability_name, status_name,
+    PROGRAM, PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees, film_parameter, magnitude,
+    specific_load, stability_name, status_name,
 };
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
@@ -60,6 +60,9 @@ pub fn summary(results: &Results) -> Value {
     if let Some(heat) = &results.header.heat {
         object.extend(heat_keys(heat));
     }
+    if let Some(plain) = &results.header.plain {
+        object.insert("comparison".into(), json!({ "plain": plain_keys(plain) }));
+    }
     if let Some(grid) = results.header.grid {
         object.insert("grid".into(), json!(grid));
     }
@@ -105,11 +108,44 @@ fn heat_keys(heat: &HeatResults) -> Map<String, Value> {
     keys
 }
 
-/// What asperities carry and lose, of a load (N); `boundary` and `total` are powers, W.
-fn contact_keys(peak: Option<f64>, contact: f64, load: f64, boundary: f64, total: f64) -> Value {
+/// Keys of a summary that a plain run repeats: of a steady state, of a load cycle.
+const COMPARED: &[&str] = &[
+    "minimum_film_thickness_m",
+    "peak_film_pressure_pa",
+    "power_loss_w",
+    "mean_power_loss_w",
+    "side_flow_m3_s",
+    "mean_side_flow_m3_s",
+    "relative_eccentricity",
+    "mean_relative_eccentricity",
+    "friction_coefficient",
+];
+
+/// The plain run under the keys of the study's own figures.
+fn plain_keys(plain: &PlainRun) -> Value {
+    let mut keys = json!({
+        "status": status_name(plain.status),
+        "temperature_degc": plain.temperature - 273.15,
+    });
+    let found = match &plain.body {
+        Some(Body::Steady(steady)) => as_map(steady_keys(steady)),
+        Some(Body::LoadCycle(cycle)) => as_map(cycle_keys(cycle)),
+        _ => Map::new(),
+    };
+    if let Value::Object(keys) = &mut keys {
+        let compared = found
+            .into_iter()
+            .filter(|(key, _)| COMPARED.contains(&key.as_str()));
+        keys.extend(compared);
+    }
+    keys
+}
+
+/// What asperities carry and lose; `boundary` and `total` are powers, W.
+fn contact_keys(peak: Option<f64>, share: f64, boundary: f64, total: f64) -> Value {
     json!({
         "peak_contact_pressure_pa": peak,
-        "contact_load_share": contact / load,
+        "contact_load_share": share,
         "boundary_power_w": boundary,
         "viscous_power_w": total - boundary,
     })
@@ -271,6 +307,15 @@ fn steady_keys(steady: &SteadyResults) -> Value {
     let optional = [
         ("load_n", steady.load.map(|load| json!(load))),
         (
+            "friction_coefficient",
+            steady.friction_coefficient().map(|found| json!(found)),
+        ),
+        (
+            "film_parameter",
+            film_parameter(&steady.bearing, summary.minimum_film_thickness.value)
+                .map(|found| json!(found)),
+        ),
+        (
             "stiffness_n_m",
             steady.stiffness.map(|matrix| json!(matrix)),
         ),
@@ -282,11 +327,9 @@ fn steady_keys(steady: &SteadyResults) -> Value {
         }
     }
     if let (true, Value::Object(keys)) = (steady.bearing.finish.has_contact(), &mut keys) {
-        let carried = steady.load.unwrap_or_else(|| steady.reaction.force());
         let contact = contact_keys(
             Some(summary.peak_contact_pressure.value),
-            summary.contact_load,
-            magnitude(carried),
+            steady.contact_load_share(),
             summary.boundary_power,
             summary.power_loss(),
         );
@@ -440,11 +483,10 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         "complementarity_violation": worst(|summary| summary.complementarity_violation),
     });
     if let (true, Value::Object(keys)) = (cycle.bearing.finish.has_contact(), &mut keys) {
-        let contact = cycle.largest(|point| point.summary.peak_contact_pressure.value);
+        let contact = cycle.peak_contact_pressure();
         keys.extend(as_map(contact_keys(
             contact.map(|p| p.summary.peak_contact_pressure.value),
-            cycle.mean(|p| p.summary.contact_load),
-            cycle.mean(|p| magnitude(p.load)),
+            cycle.contact_load_share(),
             cycle.mean(|p| p.summary.boundary_power),
             cycle.mean(|p| p.summary.power_loss()),
         )));
@@ -453,6 +495,11 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
     }
     if let Value::Object(keys) = &mut keys {
         keys.extend(wear_keys(cycle));
+    }
+    if let Some(least) = thinnest
+        .and_then(|p| film_parameter(&cycle.bearing, p.summary.minimum_film_thickness.value))
+    {
+        keys["film_parameter"] = json!(least);
     }
     if !cycle.coefficients.is_empty() {
         keys["coefficients"] = cycle.coefficients.iter().map(instant).collect();

@@ -38,7 +38,7 @@ impl ResultWriter for ParaView {
     }
 
     fn describe(&self) -> &'static str {
-        "film pressure, film fraction and film thickness on the bore, for ParaView"
+        "film pressure, film fraction and film thickness on the bore, where they are fields contact pressure and temperature, for ParaView"
     }
 
     fn write(
@@ -147,7 +147,12 @@ fn surface(bearing: &Bearing, film: &Shown<'_>) -> io::Result<String> {
         ("pressure [Pa]", &field.pressure),
         ("film fraction", &field.film_fraction),
         ("film thickness [m]", &field.film_thickness),
+        ("contact pressure [Pa]", &field.contact_pressure),
+        ("temperature [K]", &field.temperature),
     ] {
+        if values.is_empty() {
+            continue;
+        }
         array(&mut text, name, 1, &by_cell(values))?;
     }
     text += "</CellData>\n<Points>\n";

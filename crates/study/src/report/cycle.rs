@@ -9,7 +9,8 @@ use super::page::{
     subject,
 };
 use super::spark::spark;
-use super::{cycle_tables, figures, surfaces};
+use super::steady::further_cards;
+use super::{contact, cycle_tables, figures, heat, surfaces};
 use crate::limits::Quantity;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use serde_json::{Value, json};
@@ -55,8 +56,11 @@ pub(super) fn part(
     units: &Units,
     detail: &Detail,
 ) -> CyclePart {
+    let mut cards = cards(header, cycle, units);
+    let of_contact = contact::cycle_cards(header, cycle, units);
+    cards.extend(further_cards(heat::cards(header), of_contact));
     let mut part = CyclePart {
-        cards: cards(header, cycle, units),
+        cards,
         tables: cycle_tables::all(header, cycle, units),
         film: None,
         sections: Vec::new(),
@@ -70,8 +74,9 @@ pub(super) fn part(
     let instants = fields.map_or_else(Vec::new, |fields| film::instants(cycle, fields, detail));
     part.film = instants
         .first()
-        .map(|first| film::part(&cycle.bearing, first.field, instants.len(), detail));
+        .map(|_| film::part(&cycle.bearing, &instants, detail));
     part.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
+    part.sections.extend(contact::section(cycle));
     if let Some(fields) = fields {
         part.hole = surfaces::hole_sentence(&cycle.bearing, &fields.on_journal, units);
         // Where speeds share the places of the figures, the sentence stands with each speed.
@@ -491,5 +496,6 @@ fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
         let title = format!("Flow [{}]", units.flow.symbol);
         charts["feed-flows"] = chart(&title, None, flows.collect());
     }
+    contact::charts(cycle, units, detail, &mut charts);
     charts
 }

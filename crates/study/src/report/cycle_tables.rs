@@ -1,9 +1,9 @@
 //! Tables of a load cycle: extremes with limits, means, convergence, points that failed.
 
 use super::cycle::side_flow;
-use super::dynamics;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
+use super::{compare, contact, dynamics, heat};
 use crate::limits::Quantity;
 use crate::oil_holes::oil_holes;
 use crate::regime::FlowRegime;
@@ -48,6 +48,13 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
         means(header, cycle, units),
         convergence(cycle),
     ];
+    let lost = cycle.mean(|point| point.summary.power_loss());
+    tables.extend(contact::cycle_table(cycle, units));
+    tables.extend(heat::table(header, lost, units));
+    let own = compare::cycle_figures(cycle, units);
+    if let Some(table) = compare::table(header, own, units) {
+        tables.insert(1, table);
+    }
     tables.extend(feeds(cycle, units));
     tables.extend(oil_hole_rows(cycle, units));
     tables.extend(dynamics::instants(cycle));

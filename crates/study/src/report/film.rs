@@ -3,7 +3,7 @@
 
 use super::detail::Detail;
 use super::figures::{mid_plane, outline, place_mark, short};
-use super::format::{MICROMETRE, Units, angle, plain_number, significant};
+use super::format::{MICROMETRE, Units, angle, celsius, plain_number, significant};
 use super::packing::{Blocks, Depth, Keep, packed};
 use super::page::FilmPart;
 use crate::results::{
@@ -101,14 +101,14 @@ pub(super) fn in_film(extreme: &Extreme, width: f64) -> String {
 }
 
 /// The words around the pictures of the film.
-pub(super) fn part(
-    bearing: &Bearing,
-    first: &FieldSnapshot,
-    frames: usize,
-    detail: &Detail,
-) -> FilmPart {
-    let blocks = blocks(first, frames, detail);
-    let thinned = if blocks.is_coarser() {
+pub(super) fn part(bearing: &Bearing, instants: &[Instant<'_>], detail: &Detail) -> FilmPart {
+    let frames = instants.len();
+    let cells =
+        |field: fn(&FieldSnapshot) -> usize| instants.first().map_or(0, |first| field(first.field));
+    let blocks = instants
+        .first()
+        .map(|first| blocks(first.field, frames, detail));
+    let thinned = if let Some(blocks) = blocks.filter(Blocks::is_coarser) {
         format!(
             " Drawn in blocks of {} × {} cells, which keep the largest pressure and the smallest \
              film thickness of their cells and the mean film fraction.",
@@ -119,8 +119,8 @@ pub(super) fn part(
     };
     let grid = format!(
         "{} cells around × {} along the axis",
-        first.angles.len(),
-        first.axial.len()
+        cells(|field| field.angles.len()),
+        cells(|field| field.axial.len())
     );
     let feeds = if bearing.feeds.is_empty() {
         ""
@@ -131,7 +131,7 @@ pub(super) fn part(
         is_cycle: frames > 1,
         lead: if frames > 1 {
             format!(
-                "Drag the slider, use the arrow keys, or press play: both maps and the body of \
+                "Drag the slider, use the arrow keys, or press play: the maps and the body of \
                  the film show one of {frames} crank angles, the thinnest film among them."
             )
         } else if detail.is_packed {
@@ -154,7 +154,36 @@ pub(super) fn part(
             "1 where oil fills the gap, below 1 where the film is ruptured. Cross: thinnest \
              film. Grid: {grid}.{thinned}"
         ),
+        contact: if touches(instants) {
+            "Pressure of the asperities that touch, mean over the surface; it adds to the film \
+             pressure. Ring: its peak; cross: thinnest film."
+                .to_owned()
+        } else {
+            String::new()
+        },
+        temperature: temperature(instants).map_or_else(String::new, |field| {
+            let hottest = field.temperature.iter().copied().fold(f64::NAN, f64::max);
+            let when = if frames > 1 {
+                "The temperatures at the end of the run; a cycle is too short to change them"
+            } else {
+                "Mean over the thickness of the film"
+            };
+            format!("{when}. Hottest cell: {} °C.", celsius(hottest))
+        }),
     }
+}
+
+/// Whether asperities can touch in these films.
+fn touches(instants: &[Instant<'_>]) -> bool {
+    instants
+        .iter()
+        .any(|one| !one.field.contact_pressure.is_empty())
+}
+
+/// The last film with a field of temperature.
+fn temperature<'a>(instants: &[Instant<'a>]) -> Option<&'a FieldSnapshot> {
+    let fields = instants.iter().map(|one| one.field);
+    fields.rev().find(|field| !field.temperature.is_empty())
 }
 
 fn blocks(field: &FieldSnapshot, frames: usize, detail: &Detail) -> Blocks {
@@ -212,6 +241,15 @@ pub(super) fn film_data(
         "pressure": packed(&pressure, detail.frame_depth),
         "fraction": packed(&fraction, Depth::Byte),
         "thickness": packed(&thickness, Depth::Byte),
+        "contact": touches(instants).then(|| {
+            let factor = units.pressure.factor;
+            let contact = all(|field| &field.contact_pressure, Keep::Largest, factor);
+            packed(&contact, detail.frame_depth)
+        }),
+        "temperature": temperature(instants).map(|field| {
+            let celsius: Vec<f64> = field.temperature.iter().map(|kelvin| kelvin - 273.15).collect();
+            packed(&blocks.gather(&celsius, Keep::Largest), Depth::Word)
+        }),
     })
 }
 
@@ -241,6 +279,14 @@ fn frame(instant: &Instant<'_>, bearing: &Bearing, units: &Units) -> Value {
         "shell_angle": short(degrees(instant.state.shell_angle)),
         "thinnest": place_mark(&summary.minimum_film_thickness, MICROMETRE),
         "highest": place_mark(&summary.peak_film_pressure, units.pressure),
+        "contact_text": units.pressure.show(summary.peak_contact_pressure.value),
+        "contact_place": if summary.peak_contact_pressure.value > 0.0 {
+            in_film(&summary.peak_contact_pressure, bearing.width)
+        } else {
+            "no asperities touch".to_owned()
+        },
+        "hardest": (summary.peak_contact_pressure.value > 0.0)
+            .then(|| place_mark(&summary.peak_contact_pressure, units.pressure)),
     })
 }
 
@@ -260,8 +306,11 @@ fn jumps(instants: &[Instant<'_>]) -> Value {
         ),
         ("Largest load", largest(&|one| magnitude(one.load))),
     ];
+    let contact = |one: &Instant<'_>| one.summary.peak_contact_pressure.value;
+    let hardest = largest(&contact).filter(|&at| contact(&instants[at]) > 0.0);
     named
         .into_iter()
+        .chain([("Hardest contact", hardest)])
         .filter_map(|(name, index)| Some(json!({"name": name, "frame": index?})))
         .collect()
 }

@@ -25,6 +25,8 @@ pub(crate) const MICROMETRE: Unit = unit("µm", 1e6);
 pub(crate) const MEGAPASCAL: Unit = unit("MPa", 1e-6);
 /// Limits of power.
 pub(crate) const WATT: Unit = unit("W", 1.0);
+/// Shares.
+pub(crate) const PERCENT: Unit = unit("%", 100.0);
 /// Tilt.
 pub(crate) const MILLIRADIAN: Unit = unit("mrad", 1e3);
 /// Dimensionless.
@@ -136,6 +138,16 @@ pub(crate) fn significant(value: f64) -> String {
     };
     let decimals = (3.0 - exponent).max(0.0) as usize;
     with_minus(format!("{value:.decimals$}"))
+}
+
+/// A temperature given in K in degC, with one decimal.
+pub(crate) fn celsius(kelvin: f64) -> String {
+    let value = kelvin - 273.15;
+    if value.is_finite() {
+        with_minus(format!("{value:.1}"))
+    } else {
+        NO_NUMBER.to_owned()
+    }
 }
 
 /// A number somebody chose: four significant digits at most, without zeros that fill them.

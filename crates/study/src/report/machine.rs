@@ -201,6 +201,7 @@ fn own_header(header: &Header, bearing: &BearingResults) -> Header {
         grid: header.grid,
         limits,
         heat: None,
+        plain: None,
     }
 }
 

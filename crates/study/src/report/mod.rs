@@ -5,6 +5,8 @@
 //! script and the drawing library are in the file, and a content policy in its head forbids the rest.
 
 mod chart;
+mod compare;
+mod contact;
 mod cycle;
 mod cycle_tables;
 mod detail;
@@ -13,6 +15,7 @@ mod dynamics;
 mod figures;
 mod film;
 mod format;
+mod heat;
 mod machine;
 mod packing;
 mod page;

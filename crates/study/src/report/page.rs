@@ -103,6 +103,10 @@ pub(crate) struct FilmPart {
     pub pressure: String,
     /// Caption of the map of film fraction.
     pub fraction: String,
+    /// Caption of the map of contact pressure; empty where asperities cannot touch.
+    pub contact: String,
+    /// Caption of the map of temperature; empty where it is no field.
+    pub temperature: String,
 }
 
 /// One key figure.

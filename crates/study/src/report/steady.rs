@@ -8,7 +8,7 @@ use super::page::{
     Card, Cell, Figure, Page, Section, Table, badge, checks, error, exact, last_iterates,
     limit_cells, outer_circle, subject,
 };
-use super::{dynamics, figures};
+use super::{compare, contact, dynamics, figures, heat};
 use crate::limits::Quantity;
 use crate::regime::FlowRegime;
 use crate::results::{FieldSnapshot, Header, SteadyResults, degrees, degrees_around, magnitude};
@@ -18,6 +18,10 @@ use serde_json::{Value, json};
 pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> Value {
     let units = units(steady);
     page.cards = cards(header, steady, &units);
+    page.cards.extend(further_cards(
+        heat::cards(header),
+        contact::steady_cards(header, steady, &units),
+    ));
     page.subject = subject(&steady.bearing);
     let figures = figures_of(steady);
     let instant: Vec<Instant<'_>> = steady
@@ -28,7 +32,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
     page.film = instant
         .first()
         .filter(|_| !figures.is_empty())
-        .map(|one| film::part(&steady.bearing, one.field, 1, &Detail::ALONE));
+        .map(|_| film::part(&steady.bearing, &instant, &Detail::ALONE));
     if !figures.is_empty() {
         page.sections = vec![Section {
             id: "position",
@@ -37,17 +41,26 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
             figures,
         }];
     }
-    let beside: Vec<Table> = [coefficients(steady), feeds(steady, &units)]
-        .into_iter()
-        .flatten()
-        .collect();
+    let beside: Vec<Table> = [
+        contact::steady_table(steady, &units),
+        heat::table(header, steady.summary.power_loss(), &units),
+        coefficients(steady),
+        feeds(steady, &units),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
     page.tables = vec![results(header, steady, &units), convergence(header, steady)];
     page.tables[1].size = match beside.len() {
         0 => "wide",
-        1 => "",
-        _ => "tall",
+        2 | 4 => "tall",
+        _ => "",
     };
     page.tables.extend(beside);
+    let own = compare::steady_figures(steady, &units);
+    if let Some(table) = compare::table(header, own, &units) {
+        page.tables.insert(1, table);
+    }
     page.tables.extend(dynamics::tables(steady));
     page.sections.extend(dynamics::section(steady));
     json!({
@@ -57,6 +70,20 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
         "film": film::film_data(&steady.bearing, &instant, &units, &Detail::ALONE),
         "middle": steady.field.as_ref().map(|field| film::middle_data(field, &units)),
     })
+}
+
+/// Two cards more beside those that every page has, so that they fill their rows: of heat, of contact,
+/// or the first of each.
+pub(super) fn further_cards(heat: Vec<Card>, contact: Vec<Card>) -> impl Iterator<Item = Card> {
+    let each = if heat.is_empty() || contact.is_empty() {
+        2
+    } else {
+        1
+    };
+    contact
+        .into_iter()
+        .take(each)
+        .chain(heat.into_iter().take(each))
 }
 
 fn instant<'a>(steady: &'a SteadyResults, field: &'a FieldSnapshot) -> Instant<'a> {
@@ -328,6 +355,11 @@ fn results(header: &Header, steady: &SteadyResults, units: &Units) -> Table {
             "friction_torque_shell_n_m",
             units.torque,
             None,
+        ),
+        plain(
+            "Friction coefficient, torque over load and radius",
+            significant(steady.friction_coefficient().unwrap_or(f64::NAN)),
+            "friction_coefficient",
         ),
         in_unit(
             "Power loss",

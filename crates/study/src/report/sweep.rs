@@ -1,6 +1,6 @@
 //! The report of a sweep: the key figures of all cases over what varies, and a table of the cases.
 
-use super::format::{MICROMETRE, ONE, Unit, Units};
+use super::format::{MICROMETRE, ONE, PERCENT, Unit, Units};
 use super::page::{Answer, Card, Cell, Check, Figure, Page, Table};
 use crate::cases::{CaseRow, CaseStatus, SweepResults, VariedColumn};
 use crate::limits::{Quantity, Side};
@@ -79,9 +79,23 @@ const HEADLINES: &[Headline] = &[
     Headline {
         keys: &["contact_load_share"],
         label: "Contact load share",
+        unit: |_| PERCENT,
+        limited: None,
+        better: 0,
+    },
+    Headline {
+        keys: &["friction_coefficient"],
+        label: "Friction coefficient",
         unit: |_| ONE,
         limited: None,
-        better: -1,
+        better: 0,
+    },
+    Headline {
+        keys: &["film_parameter"],
+        label: "Minimum film over roughness",
+        unit: |_| ONE,
+        limited: None,
+        better: 0,
     },
     Headline {
         keys: &["integrals.p_cos"],
@@ -142,7 +156,22 @@ pub(super) fn fill(page: &mut Page, sweep: &SweepResults) -> Value {
         (_, [first, ..]) => format!("Over {first}."),
         (_, []) => String::new(),
     };
-    let figures = shown.iter().map(|shown| Figure {
+    let is_stribeck = is_stribeck(sweep);
+    if is_stribeck {
+        page.figures.push(Figure {
+            kind: STRIBECK,
+            title: "Stribeck curve",
+            caption: format!(
+                "{caption} Friction torque of the journal over load and radius, the minimum film \
+                 over the composite roughness, and the share of the load that asperities carry."
+            ),
+            size: "wide",
+        });
+    }
+    let alone = shown
+        .iter()
+        .filter(|shown| !is_stribeck || !STRIBECK_KEYS.contains(&shown.key));
+    let figures = alone.map(|shown| Figure {
         kind: shown.key,
         title: shown.headline.label,
         caption: caption.clone(),
@@ -151,6 +180,30 @@ pub(super) fn fill(page: &mut Page, sweep: &SweepResults) -> Value {
     page.figures.extend(figures);
     page.tables.push(case_table(sweep, &shown));
     data(sweep, &shown)
+}
+
+/// The figure of friction, film and contact over speed.
+const STRIBECK: &str = "stribeck";
+/// What it shows, from the top down.
+const STRIBECK_KEYS: [&str; 3] = [
+    "friction_coefficient",
+    "film_parameter",
+    "contact_load_share",
+];
+
+/// Whether the cases are those of a bearing with contact over its speed.
+fn is_stribeck(sweep: &SweepResults) -> bool {
+    let Some((at, first)) = telling(sweep).next() else {
+        return false;
+    };
+    let speeds = |row: &CaseRow| row.numbers.get(at).copied().flatten();
+    first.key == "operation.speed"
+        && joined(sweep) != "none"
+        && sweep
+            .cases
+            .iter()
+            .all(|row| speeds(row).is_some_and(|speed| speed > 0.0))
+        && STRIBECK_KEYS.iter().all(|key| sweep.column(key).is_some())
 }
 
 /// What the limits of the base study say over all cases.
@@ -250,7 +303,6 @@ fn cards(sweep: &SweepResults, shown: &[Shown]) -> Vec<Card> {
         let ((row, value), label) = match (shown.headline.better, shown.key) {
             (1, _) => (high, "Thickest minimum film"),
             (-1, "peak_film_pressure_pa") => (low, "Lowest peak film pressure"),
-            (-1, "contact_load_share") => (low, "Smallest contact load share"),
             (-1, _) => (low, "Smallest power loss"),
             _ => return None,
         };
@@ -419,6 +471,7 @@ fn data(sweep: &SweepResults, shown: &[Shown]) -> Value {
         "sweep": {
             "joined": joined(sweep), "inputs": inputs, "labels": labels, "status": statuses,
             "figures": figures,
+            "stribeck": is_stribeck(sweep).then_some(STRIBECK_KEYS),
         },
     })
 }

@@ -11,7 +11,7 @@ use sommerfeld_bearing::{
     Coefficients, CyclePoint, JournalOrbit, RanIn, Stability, StabilityChart, WearMap,
 };
 use sommerfeld_film::{
-    Bearing, Extreme, FeedFlow, FilmField, FilmSummary, JournalState, Outcome, Reaction,
+    Bearing, Extreme, FeedFlow, FilmField, FilmSummary, Finish, JournalState, Outcome, Reaction,
 };
 use std::collections::BTreeMap;
 
@@ -61,6 +61,21 @@ pub struct Header {
     pub limits: Vec<LimitCheck>,
     /// The temperature that the heat of the film led to, where it was not given.
     pub heat: Option<HeatResults>,
+    /// The same study with plain surfaces and oil, where the study asks for it.
+    pub plain: Option<Box<PlainRun>>,
+}
+
+/// A study run once more with smooth surfaces, a rigid shell and an oil of constant viscosity and
+/// density, at one temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlainRun {
+    /// Temperature of the oil, K.
+    pub temperature: f64,
+    /// How the run ended.
+    pub status: Outcome,
+    /// Its numbers, without fields; none where the film refused it, as rigid smooth surfaces do at a
+    /// position that only asperities hold.
+    pub body: Option<Body>,
 }
 
 /// The balance of the heat that a film makes.
@@ -319,6 +334,12 @@ pub struct FieldSnapshot {
     pub film_fraction: Vec<f64>,
     /// Film thickness, m.
     pub film_thickness: Vec<f64>,
+    /// Contact pressure of asperities, Pa; empty where none carry.
+    #[serde(default)]
+    pub contact_pressure: Vec<f64>,
+    /// Temperature, K; empty where it is no field.
+    #[serde(default)]
+    pub temperature: Vec<f64>,
 }
 
 impl From<FilmField<'_>> for FieldSnapshot {
@@ -329,6 +350,8 @@ impl From<FilmField<'_>> for FieldSnapshot {
             pressure: field.pressure.to_vec(),
             film_fraction: field.film_fraction.to_vec(),
             film_thickness: field.film_thickness.to_vec(),
+            contact_pressure: field.contact_pressure.to_vec(),
+            temperature: field.temperature.to_vec(),
         }
     }
 }
@@ -394,6 +417,22 @@ impl Results {
 }
 
 impl SteadyResults {
+    /// Friction torque of the journal over load times bore radius; `None` without a load.
+    #[must_use]
+    pub fn friction_coefficient(&self) -> Option<f64> {
+        let load = self.load.filter(|load| *load != [0.0, 0.0])?;
+        let torque = self.reaction.friction_torque_journal.abs();
+        Some(torque / (magnitude(load) * self.bearing.radius()))
+    }
+
+    /// What asperities carry over what the journal bears: the integral of their pressure without
+    /// regard to its direction over the load, or over the force where no load is given.
+    #[must_use]
+    pub fn contact_load_share(&self) -> f64 {
+        let carried = self.load.unwrap_or_else(|| self.reaction.force());
+        self.summary.contact_load / magnitude(carried)
+    }
+
     /// Direction of the load, rad from +X; `None` without a load.
     #[must_use]
     pub fn load_angle(&self) -> Option<f64> {
@@ -457,6 +496,18 @@ impl CycleResults {
     #[must_use]
     pub fn peak_film_pressure(&self) -> Option<&CyclePoint> {
         self.largest(|point| point.summary.peak_film_pressure.value)
+    }
+
+    /// The point with the highest contact pressure of asperities.
+    #[must_use]
+    pub fn peak_contact_pressure(&self) -> Option<&CyclePoint> {
+        self.largest(|point| point.summary.peak_contact_pressure.value)
+    }
+
+    /// Mean of what asperities carry, without regard to its direction, over the mean load.
+    #[must_use]
+    pub fn contact_load_share(&self) -> f64 {
+        self.mean(|point| point.summary.contact_load) / self.mean(|point| magnitude(point.load))
     }
 
     /// The point with the largest load.
@@ -561,6 +612,15 @@ pub fn rpm(speed: f64) -> f64 {
 #[must_use]
 pub fn magnitude(vector: [f64; 2]) -> f64 {
     vector[0].hypot(vector[1])
+}
+
+/// A film thickness (m) over the composite roughness; `None` between smooth surfaces.
+#[must_use]
+pub fn film_parameter(bearing: &Bearing, film_thickness: f64) -> Option<f64> {
+    match &bearing.finish {
+        Finish::Smooth => None,
+        Finish::Rough(rough) => Some(film_thickness / rough.roughness.composite()),
+    }
 }
 
 /// Load over width times diameter, Pa.

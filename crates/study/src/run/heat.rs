@@ -158,13 +158,20 @@ fn range(case: &BearingCase, within: f64, expansion: Option<&Expansion>) -> [f64
 /// The bearing at a temperature (K): with its warm clearance and, where its position is given, the
 /// same relative eccentricity.
 fn warm_case(case: &BearingCase, expansion: Option<&Expansion>, temperature: f64) -> BearingCase {
+    let cold = case.bearing.radial_clearance;
+    let clearance = expansion.map_or(cold, |expansion| {
+        expansion.clearance(case.bearing.radius(), cold, temperature)
+    });
+    with_clearance(case, clearance, temperature)
+}
+
+/// The bearing at a temperature (K) with a radial clearance (m) and, where its position is given, the
+/// same relative eccentricity.
+pub(super) fn with_clearance(case: &BearingCase, clearance: f64, temperature: f64) -> BearingCase {
     let mut warm = case.clone();
     warm.temperature = temperature;
     let cold = case.bearing.radial_clearance;
-    if let Some(expansion) = expansion {
-        let radius = case.bearing.radius();
-        warm.bearing.radial_clearance = expansion.clearance(radius, cold, temperature);
-    }
+    warm.bearing.radial_clearance = clearance;
     if let Duty::State(state) = &mut warm.duty {
         *state = scaled(state, warm.bearing.radial_clearance / cold);
     }

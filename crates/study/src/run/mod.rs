@@ -1,6 +1,7 @@
 //! From a checked study to results in a directory: which film, which analysis, what it means.
 
 mod accuracy;
+mod compare;
 mod crew;
 mod cycle;
 mod heat;
@@ -213,12 +214,42 @@ fn solve_into(
         Subject::Bearing(_) | Subject::Dimensionless(_) => {}
     }
     let start = Instant::now();
+    // A run that is compared leaves the second part of the bar to the other one.
+    let share = if study.film.compare_plain { 0.6 } else { 1.0 };
+    let mut of_share = |event: ProgressEvent| {
+        progress(ProgressEvent {
+            done: share * event.done,
+            ..event
+        })
+    };
+    let mut results = solve_accurately(study, options, spool, &mut of_share)?;
+    if study.film.compare_plain {
+        compare::with_plain(study, &mut results, &mut |event| {
+            progress(ProgressEvent {
+                label: format!("plain, {}", event.label),
+                done: share + (1.0 - share) * event.done,
+                ..event
+            })
+        });
+    }
+    results.header.wall_time = start.elapsed().as_secs_f64();
+    finish_results(study, &mut results);
+    Ok(results)
+}
+
+/// The study on its grid, or on as many as its accuracy takes.
+fn solve_accurately(
+    study: &Study,
+    options: RunOptions,
+    spool: Option<&mut FieldSpool>,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Results, RunError> {
     let target = study
         .film
         .relative_error_target
         .filter(|_| study.film.model.is_field());
-    let mut results = match target {
-        Some(target) => accuracy::solve_to_target(study, target, progress)?,
+    match target {
+        Some(target) => accuracy::solve_to_target(study, target, progress),
         None if options.verify => {
             // The bar is shared with the runs on other grids.
             let share = 0.6;
@@ -229,13 +260,10 @@ fn solve_into(
                 })
             })?;
             accuracy::add_error_bars(study, &mut results, progress)?;
-            results
+            Ok(results)
         }
-        None => solve_once(study, spool, progress)?,
-    };
-    results.header.wall_time = start.elapsed().as_secs_f64();
-    finish_results(study, &mut results);
-    Ok(results)
+        None => solve_once(study, spool, progress),
+    }
 }
 
 /// Holds results against the limits of the study and against what its physics can mean.
@@ -322,6 +350,7 @@ fn header(study: &Study) -> Header {
         grid: study.film.model.is_field().then_some(study.film.grid),
         limits: Vec::new(),
         heat: None,
+        plain: None,
     }
 }
 
@@ -438,9 +467,11 @@ fn edge_contact_message(edge: usize, at: &str) -> String {
     )
 }
 
-/// Sets the status and says what it means and what to do.
+/// Sets the status and says what it means and what to do. What went wrong before stays wrong.
 fn note_outcome(outcome: Outcome, header: &mut Header) {
-    header.status = outcome;
+    if outcome != Outcome::Converged {
+        header.status = outcome;
+    }
     if let Some(message) = outcome_message(outcome, &header.analysis) {
         header.messages.insert(0, message.to_owned());
     }

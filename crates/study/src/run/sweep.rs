@@ -400,6 +400,7 @@ fn header(study: &Study, plan: &SweepPlan, models: Vec<Model>, sweep: &SweepResu
         grid: None,
         limits: Vec::new(),
         heat: None,
+        plain: None,
     }
 }
 

@@ -5,6 +5,8 @@
 
 #[allow(dead_code, reason = "not every test needs a machine")]
 pub mod machine;
+#[allow(dead_code, reason = "not every test needs rough surfaces")]
+pub mod mixed;
 
 use sommerfeld_bearing::{CyclePoint, JournalOrbit};
 use sommerfeld_film::{
@@ -98,6 +100,7 @@ pub fn header(analysis: &str, title: &str) -> Header {
         grid: Some([128, 32]),
         limits: Vec::new(),
         heat: None,
+        plain: None,
     }
 }
 
@@ -333,6 +336,8 @@ fn field_on(grid: [usize; 2], width: f64, state: &JournalState, peak: f64) -> Fi
         pressure: Vec::new(),
         film_fraction: Vec::new(),
         film_thickness: Vec::new(),
+        contact_pressure: Vec::new(),
+        temperature: Vec::new(),
         angles: angles.clone(),
         axial: axial.clone(),
     };

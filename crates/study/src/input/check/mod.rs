@@ -303,6 +303,11 @@ impl Checker<'_> {
             } else if key.path == "operation.dimensionless" {
                 self.errors
                     .push(note.hinting("only the analysis \"film\" can be dimensionless"));
+            } else if key.path == "film.compare" {
+                let what = format!("film.compare of the analysis {}", self.mode.name());
+                let error = not_built(note, &what);
+                self.errors
+                    .push(error.allowing("film, equilibrium, load-cycle"));
             } else if self.mode.is_machine() && key.path == "film.relative_error_target" {
                 let what = format!("an error target of the analysis {}", self.mode.name());
                 let error = not_built(note, &what);
@@ -422,6 +427,7 @@ impl Checker<'_> {
                 "film.grid",
                 "film.linear_solver",
                 "film.relative_error_target",
+                "film.compare",
                 "output.fields",
             ] {
                 if let Some(entry) = self.entry(path) {
@@ -446,6 +452,8 @@ impl Checker<'_> {
             grid,
             linear_solver,
             relative_error_target: self.number("film.relative_error_target"),
+            compare_plain: model.is_field()
+                && matches!(self.value("film.compare"), Some(Value::Words(words)) if words.iter().any(|word| word == "plain")),
         })
     }
 

@@ -11,6 +11,9 @@ globalThis.sommerfeld.parts.push((report) => {
     fraction: { values: unpacked(film.fraction), scale: "Cividis", name: "film fraction", unit: "" },
     thickness: { values: unpacked(film.thickness), scale: report.scales.plasma, name: "film thickness", unit: "µm", reversed: true },
   };
+  if (film.contact) { fields.contact = { values: unpacked(film.contact), scale: report.scales.inferno, name: "contact pressure", unit: units.pressure, zero: true }; }
+  // One field for all frames.
+  if (film.temperature) { fields.temperature = { values: unpacked(film.temperature), scale: report.scales.inferno, name: "temperature", unit: "°C", still: true }; }
   for (const field of Object.values(fields)) {
     field.low = report.smallest(field.values);
     field.high = report.largest(field.values);
@@ -20,14 +23,16 @@ globalThis.sommerfeld.parts.push((report) => {
 
   report.frameOfPeak = film.frames[shown];
   const frame = () => film.frames[shown];
-  const rowsOf = (name) => rows(fields[name].values, around, along, shown);
+  const rowsOf = (name) => rows(fields[name].values, around, along, fields[name].still ? 0 : shown);
 
   // Range of colours: of pressure over the cycle or this instant, of the others over the cycle.
   function range(name) {
     if (name === "fraction") { return [0, 1]; }
     const { low, high } = fields[name];
     if (name === "thickness") { return [low, high]; }
-    const top = choice.scale === "cycle" ? high : report.largest(fields.pressure.values.subarray(shown * around * along, (shown + 1) * around * along));
+    // An even temperature is one colour, in the middle of its bar.
+    if (name === "temperature") { return high > low ? [low, high] : [low - 1, high + 1]; }
+    const top = choice.scale === "cycle" ? high : report.largest(fields[name].values.subarray(shown * around * along, (shown + 1) * around * along));
     return [Math.min(0, low), Math.max(top, 1e-12)];
   }
 
@@ -43,6 +48,11 @@ globalThis.sommerfeld.parts.push((report) => {
 
   drawings["film-pressure"] = () => map("pressure", [...report.placeMark(frame().thinnest, "x-thin", 8),
     ...report.placeMark(frame().highest, "circle-open", 12)]);
+  if (fields.contact) {
+    drawings["film-contact"] = () => map("contact", [...report.placeMark(frame().thinnest, "x-thin", 8),
+      ...(frame().hardest ? report.placeMark(frame().hardest, "circle-open", 12) : [])]);
+  }
+  if (fields.temperature) { drawings["film-temperature"] = () => map("temperature"); }
   drawings["film-fraction"] = () => map("fraction", report.placeMark(frame().thinnest, "x-thin", 8));
 
   // ---- the body of the film ------------------------------------------------------------------
@@ -66,7 +76,9 @@ globalThis.sommerfeld.parts.push((report) => {
   const closed = (row) => [...row, row[0]];
   const turns = closed(bodyAngle).map((angle, i) => (angle + (i === columns.length ? 360 : 0)) * Math.PI / 180);
 
-  function surface(x, y, z, colour) {
+  function surface(x, y, z, wanted) {
+    // A speed without that field shows the pressure.
+    const colour = wanted in fields ? wanted : "pressure";
     const field = fields[colour];
     const [cmin, cmax] = range(colour);
     return { type: "surface", x, y, z, surfacecolor: bodyOf(colour).map(choice.shape === "bush" ? closed : (row) => row),
@@ -193,7 +205,7 @@ globalThis.sommerfeld.parts.push((report) => {
   function readOut() {
     const now = frame();
     const values = { crank: [now.crank_text, `instant ${shown + 1} of ${film.frames.length}`], load: [now.load_text, now.load_place], thickness: [now.thickness_text, now.thickness_place],
-      pressure: [now.pressure_text, now.pressure_place], eccentricity: [now.eccentricity_text, now.eccentricity_place] };
+      pressure: [now.pressure_text, now.pressure_place], contact: [now.contact_text, now.contact_place], eccentricity: [now.eccentricity_text, now.eccentricity_place] };
     for (const element of report.root.querySelectorAll("[data-read]")) {
       const [value, place] = values[element.dataset.read];
       const small = document.createElement("small");
@@ -211,7 +223,7 @@ globalThis.sommerfeld.parts.push((report) => {
   const rest = 90;
   async function drawPictures() {
     const drawn = shown;
-    await report.draw(["film-pressure", "film-fraction"]);
+    await report.draw(["film-pressure", "film-contact", "film-fraction"]);
     if (!playing) { await new Promise((done) => { setTimeout(done, rest); }); }
     if (isStale || report.isLeft) { return; }
     await report.draw(["film-solid"]);
