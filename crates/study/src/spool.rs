@@ -216,6 +216,8 @@ mod tests {
             let field = FilmField {
                 angles: &[0.5],
                 axial: &[0.0],
+                angle_widths: &[1.0],
+                axial_widths: &[0.01],
                 pressure: &[value],
                 film_fraction: &[1.0],
                 film_thickness: &[3.0],
