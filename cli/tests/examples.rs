@@ -291,7 +291,8 @@ fn mixed_big_end_of_a_diesel() {
     ];
     let ran = machines::changed("08-big-end-mixed", "study.toml", &changes);
     let summary = ran.summary();
-    assert!(number(&summary, "mass_balance_relative") < 1e-8);
+    // As far as Newton goes with the lining and the compressed oil.
+    assert!(number(&summary, "mass_balance_relative") < 1e-6);
     assert!(number(&summary, "energy_balance_relative") < 1e-8);
     // What the film makes of heat leaves with its oil.
     let (made, out) = (

@@ -105,8 +105,9 @@ fn random(state: &mut u64) -> f64 {
 
 #[test]
 fn killed_at_any_time_a_sweep_is_taken_up_where_it_stood() {
+    // Cases that take long enough for a kill to hit them.
     let desk = Desk::new(
-        BASE,
+        &BASE.replace("[32, 8]", "[48, 12]"),
         "[sweep.vary]\n\"operation.speed\" = { from = \"1000 rpm\", to = \"4000 rpm\", count = 12 }\n\
          \"bearing.diametral_clearance\" = { from = \"80 um\", to = \"140 um\", count = 10 }\n",
     );
@@ -124,7 +125,7 @@ fn killed_at_any_time_a_sweep_is_taken_up_where_it_stood() {
     let mut kills_amid = 0;
     for _ in 0..8 {
         let mut child = desk.start("killed", "2");
-        std::thread::sleep(whole.mul_f64(0.02 + 0.4 * random(&mut seed)));
+        std::thread::sleep(whole.mul_f64(0.02 + 0.2 * random(&mut seed)));
         child.kill().unwrap();
         child.wait().unwrap();
         let now = finished(&results);
