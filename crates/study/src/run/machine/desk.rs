@@ -12,6 +12,7 @@ use flate2::read::ZlibDecoder;
 use flate2::write::ZlibEncoder;
 use sommerfeld_film::Outcome;
 use std::collections::{BTreeMap, HashMap};
+use std::io::Write;
 use std::ops::ControlFlow;
 
 /// What a unit found and, where there is a ledger, its form there.
@@ -163,9 +164,14 @@ pub(super) fn packed(found: &UnitFound) -> Result<Vec<u8>, RunError> {
             reason,
         })
     };
+    // Number by number, the encoder would clear its buffer for each of them.
+    let mut plain = Vec::new();
+    ciborium::into_writer(found, &mut plain).map_err(|error| failed(error.to_string()))?;
     let mut encoder = ZlibEncoder::new(Vec::new(), Compression::fast());
-    ciborium::into_writer(found, &mut encoder).map_err(|error| failed(error.to_string()))?;
-    encoder.finish().map_err(|error| failed(error.to_string()))
+    encoder
+        .write_all(&plain)
+        .and_then(|()| encoder.finish())
+        .map_err(|error| failed(error.to_string()))
 }
 
 /// The reverse of [`packed`].
