@@ -285,3 +285,42 @@ fn soft_shells_rest_on_oil_that_thickens() {
         }
     }
 }
+
+#[test]
+#[ignore = "scratch"]
+fn scratch() {
+    let stated = Rig::as_stated();
+    let with = |change: &dyn Fn(&mut Rig)| {
+        let mut rig = stated.clone();
+        change(&mut rig);
+        rig
+    };
+    let surfaces = |rig: &mut Rig, height: f64| {
+        if let Finish::Rough(rough) = &mut rig.finish {
+            rough.roughness.journal = 0.20e-6;
+            rough.roughness.shell = 0.34e-6;
+            if let ContactLaw::GreenwoodTripp(law) = &mut rough.contact {
+                law.summit_height = height;
+                law.summit_roughness = Some(0.13e-6_f64.hypot(0.28e-6));
+            }
+        }
+    };
+    let soft = |k: f64| Elasticity::Layer { thickness: k, modulus: 1.0, poisson: 0.0 };
+    let which = std::env::var("WHICH").unwrap_or_default();
+    for (name, rig) in [
+        ("A rigid stated", with(&|_| {})),
+        ("B rigid surfaces", with(&|r| surfaces(r, 0.6e-6))),
+        ("C soft 2e-14 stated", with(&|r| r.elasticity = soft(2.1e-14))),
+        ("D soft 2e-14 surfaces", with(&|r| {r.elasticity = soft(2.1e-14); surfaces(r, 0.6e-6)})),
+        ("E soft 2.3e-13 stated", with(&|r| {r.elasticity = soft(2.3e-13);})),
+        ("F soft 2.3e-13 surfaces", with(&|r| {r.elasticity = soft(2.3e-13); surfaces(r, 0.6e-6)})),
+    ] {
+        if !which.is_empty() && !which.contains(&name[..1]) { continue; }
+        for cells in [[64, 16]] {
+            let rig = Rig { cells, ..rig.clone() };
+            let start = std::time::Instant::now();
+            print(name, &over_speed(&rig));
+            println!("{:?}", start.elapsed());
+        }
+    }
+}

@@ -107,6 +107,8 @@ pub fn greenwood_tripp(factor: f64) -> ContactLaw {
         factor,
         asperity_product: 0.05,
         modulus: 53.3e9,
+        summit_height: 0.0,
+        summit_roughness: None,
     })
 }
 
