@@ -123,7 +123,8 @@ fn tilted_table() {
 fn comsol_ehl() {
     let study = root().join("validation/comsol-ehl/study.toml");
     let summary = run(&study).converged().summary();
-    let table = std::fs::read_to_string(root().join("validation/comsol-ehl/equilibria.csv")).unwrap();
+    let table =
+        std::fs::read_to_string(root().join("validation/comsol-ehl/equilibria.csv")).unwrap();
     let row: Vec<f64> = table
         .lines()
         .find(|line| line.starts_with("100,"))

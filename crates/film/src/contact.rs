@@ -339,7 +339,10 @@ mod tests {
         let refused = |change: &dyn Fn(&mut GreenwoodTripp)| {
             let mut law = law();
             change(&mut law);
-            ContactLaw::GreenwoodTripp(law).check().unwrap_err().to_string()
+            ContactLaw::GreenwoodTripp(law)
+                .check()
+                .unwrap_err()
+                .to_string()
         };
         for height in [-1e-9, 2e-4, f64::NAN] {
             let error = refused(&|law| law.summit_height = height);
@@ -388,7 +391,8 @@ mod tests {
         let delta = 1e-3 * finer;
         for gap in [-0.3e-6, 0.2e-6, 0.7e-6, 1.5e-6] {
             let at = |d: f64| high.pressure(gap + d, SIGMA).value;
-            let difference = (8.0 * (at(delta) - at(-delta)) - (at(2.0 * delta) - at(-2.0 * delta)))
+            let difference = (8.0 * (at(delta) - at(-delta))
+                - (at(2.0 * delta) - at(-2.0 * delta)))
                 / (12.0 * delta);
             let slope = high.pressure(gap, SIGMA).by_gap;
             assert!((slope / difference - 1.0).abs() < 1e-7, "{gap}");
