@@ -264,7 +264,7 @@ pub const KEYS: &[Key] = &[
     key("oil.shear_thinning.hths", Quantity(Dimension::DynamicViscosity, Range::above(0.0, 1000.0, "Pa.s")), Optional, PHYSICAL, "Viscosity at 150 degC and 1e6 1/s, from which the critical shear rate follows; it moves with temperature and pressure. Give this or critical_shear_rate.", "\"2.9 mPa.s\""),
     key("oil.shear_thinning.critical_shear_rate", Quantity(Dimension::Rate, Range::above(0.0, 1e15, "1/s")), Optional, PHYSICAL, "Critical shear rate, the same at every temperature. Give this or hths.", "\"1e6 1/s\""),
     key("oil.shear_thinning.second_newtonian_ratio", Number(Range::between(0.0, 0.999, "")), Default("0.5"), PHYSICAL, "Viscosity at unlimited shear over that at low shear, about that of the base oil over that of the blend.", "0.4 to 0.7"),
-    key("oil.shear_thinning.exponent", Number(Range::between(0.0, 1.0, "")), Optional, PHYSICAL, "Cross: 0.1 to 1, left out 2/3; carreau: exponent of the power law, 0 to below 1, which must be given.", "0.667"),
+    key("oil.shear_thinning.exponent", Number(Range::between(0.0, 1.0, "")), Optional, PHYSICAL, "Cross: 0.1 to 1, left out 2/3 (Cross 1965); carreau: exponent of the power law, 0 to below 1, which must be given, from a fit to the oil's flow curve.", "0.667"),
     key("oil.heat_capacity", QuantityOrLaw(Dimension::HeatCapacity, CAPACITY), Optional, PHYSICAL,
         "Heat capacity, or { value, temperature, slope }. Default: mineral oil of relative density 0.87, 2170 J/(kg.K) at 100 degC.", "\"2000 J/(kg.K)\""),
     key("oil.heat_capacity.value", Quantity(Dimension::HeatCapacity, CAPACITY), Required, PHYSICAL, "Heat capacity at oil.heat_capacity.temperature.", "\"2000 J/(kg.K)\""),
