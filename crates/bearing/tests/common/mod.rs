@@ -112,7 +112,7 @@ pub fn greenwood_tripp(factor: f64) -> ContactLaw {
     })
 }
 
-/// Surfaces of that rig. The Peklenik number of its shell, 12, is beyond what the factors were fitted
+/// Surfaces of that rig, as rough as its summits. The Peklenik number of its shell, 12, is beyond what the factors were fitted
 /// to: 9 is the end.
 pub fn rig_finish(contact: ContactLaw) -> Finish {
     Finish::Rough(RoughFinish {
