@@ -15,8 +15,8 @@ use crate::motion::{Coordinates, add, coordinates, length, with_motion};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::closed_form::short;
 use sommerfeld_film::{
-    Bearing, Conditions, FilmError, FilmForce, FilmSummary, JournalState, Outcome, Reaction, Step,
-    Tangent,
+    Bearing, Conditions, FilmError, FilmForce, FilmSummary, JournalState, Linearised, Outcome,
+    Reaction, Step, Tangent,
 };
 
 /// What is to be in equilibrium.
@@ -177,25 +177,11 @@ fn search_from(
         },
     };
     let is_soft = bearing.elasticity.compliance() > 0.0;
-    let followed = match request.start {
-        Some(_) if is_soft => search.follow(film, &search.balance, start)?,
-        _ => None,
+    let found = if is_soft {
+        search.find_on_soft_shell(film, start, request.start.is_some())?
+    } else {
+        search.find(film, start)?
     };
-    let near = followed.unwrap_or(start);
-    let mut found = search
-        .balance
-        .find(film, conditions, near, &search.limits)?;
-    if found.outcome != Outcome::Converged
-        && is_soft
-        && let Some(raised) = search.raise(film)?
-    {
-        found = search
-            .balance
-            .find(film, conditions, raised, &search.limits)?;
-    }
-    if found.outcome != Outcome::Converged {
-        found = search.settle(film, start, found)?;
-    }
     Ok(Equilibrium {
         state: found.state,
         reaction: found.linearised.reaction,
@@ -308,6 +294,65 @@ impl Search<'_> {
         inside
     }
 
+    /// Newton, and where it fails the journal left to settle.
+    fn find(&self, film: &mut dyn FilmForce, start: Coordinates) -> Result<Balanced, FilmError> {
+        let found = self
+            .balance
+            .find(film, self.conditions, start, &self.limits)?;
+        match found.outcome {
+            Outcome::Converged => Ok(found),
+            _ => self.settle(film, start, found),
+        }
+    }
+
+    /// The same on a soft shell: a start that was given is followed with settled films, one that was not is
+    /// left to Newton first, and then the load is raised.
+    fn find_on_soft_shell(
+        &self,
+        film: &mut dyn FilmForce,
+        start: Coordinates,
+        is_given: bool,
+    ) -> Result<Balanced, FilmError> {
+        let mut updates = 0;
+        let mut near = start;
+        if is_given && let Some(at) = self.follow(film, &self.balance, start, &mut updates)? {
+            near = at;
+        }
+        let mut found = self
+            .balance
+            .find(film, self.conditions, near, &self.limits)?;
+        if found.outcome != Outcome::Converged {
+            updates += found.film_updates;
+            found = match self.raise(film, &mut updates)? {
+                Some(raised) => self.find(film, raised)?,
+                None => self.find(film, start)?,
+            };
+        }
+        found.film_updates += updates;
+        Ok(found)
+    }
+
+    /// The film at a state, updated until its cavitated set and its shell rest; `None` where it has no
+    /// answer. Counts the updates.
+    fn settled(
+        &self,
+        film: &mut dyn FilmForce,
+        state: &JournalState,
+        updates: &mut usize,
+    ) -> Result<Option<Linearised>, FilmError> {
+        for _ in 0..film.capabilities().iteration_limit {
+            *updates += 1;
+            match film.linearise(state, Step::Steady, self.conditions) {
+                Ok(seen) if seen.outcome != Outcome::Converged => return Ok(None),
+                Ok(seen) if seen.settled => return Ok(Some(seen)),
+                Ok(_) => {}
+                Err(FilmError::Contact { .. } | FilmError::NotFinite { .. }) => return Ok(None),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(None)
+    }
+
     /// Follows Newton with films settled at every position, in steps of [`LARGEST_STRIDE`] at most.
     /// `None` where it does not arrive.
     fn follow(
@@ -315,14 +360,14 @@ impl Search<'_> {
         film: &mut dyn FilmForce,
         balance: &Balance,
         from: Coordinates,
+        updates: &mut usize,
     ) -> Result<Option<Coordinates>, FilmError> {
         let mut position = from;
         for _ in 0..FOLLOWING_STEPS {
             let state = with_motion(&balance.frame, position, [0.0; 4]);
-            let settled = film.react(&state, Step::Steady, self.conditions)?;
-            if settled.outcome != Outcome::Converged {
+            let Some(settled) = self.settled(film, &state, updates)? else {
                 break;
-            }
+            };
             let residual = balance.residual(position, &settled);
             let size = residual.iter().map(|r| r * r).sum::<f64>().sqrt();
             if size <= FOLLOWED * balance.force_scale {
@@ -341,7 +386,11 @@ impl Search<'_> {
 
     /// Raises the load from a light one, each equilibrium the start of the next, in steps that grow while
     /// Newton follows and shrink where it does not. `None` where it does not arrive at the whole load.
-    fn raise(&self, film: &mut dyn FilmForce) -> Result<Option<Coordinates>, FilmError> {
+    fn raise(
+        &self,
+        film: &mut dyn FilmForce,
+        updates: &mut usize,
+    ) -> Result<Option<Coordinates>, FilmError> {
         let sense = self.balance.frame.mean_speed().signum();
         let [load_x, load_y] = self.balance.load;
         let mut position = self.on_path(0.5, load_y.atan2(load_x), sense);
@@ -355,7 +404,7 @@ impl Search<'_> {
                 force_scale: part(self.balance.force_scale),
                 ..self.balance
             };
-            match self.follow(film, &balance, position)? {
+            match self.follow(film, &balance, position, updates)? {
                 Some(found) => {
                     position = found;
                     (share, step) = (next, 1.5 * step);

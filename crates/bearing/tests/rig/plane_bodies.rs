@@ -1,14 +1,17 @@
 //! How far a shaft and a plate with a hole give way to the pressure between them: another answer than
 //! columns, which know nothing of their neighbours.
 //!
-//! Pressure of the order n around, the same along the axis, in plane elasticity (J. H. Michell's stress functions, as in
-//! J. R. Barber, Elasticity, ch. 8 and 9), radial displacement over pressure:
+//! Pressure of the order n around, the same along the axis, in plane elasticity (J. H. Michell's stress
+//! functions, as in J. R. Barber, Elasticity, ch. 8 and 9), radial displacement over pressure:
 //! ```text
-//! hole   R/(4 mu (n - 1)) (kappa + (n - 1)/(n + 1))     kappa = (3 - nu)/(1 + nu), plane stress; R/(2 mu) for n = 0
-//! shaft  R/(4 mu (n + 1)) (kappa + (n + 1)/(n - 1))     kappa = 3 - 4 nu, plane strain; R (kappa - 1)/(4 mu) for n = 0
+//! hole   R/(4 mu (n - 1)) (kappa + (n - 1)/(n + 1)), R/(2 mu) for n = 0
+//!        kappa = (3 - nu)/(1 + nu), plane stress
+//! shaft  R/(4 mu (n + 1)) (kappa + (n + 1)/(n - 1)), R (kappa - 1)/(4 mu) for n = 0
+//!        kappa = 3 - 4 nu, plane strain
 //! ```
-//! n = 1 is a translation, which is the journal's. What varies along the axis, even about both ends, gives way as a
-//! half-space does under waves of the wave number q: `2 (1 - nu^2)/(E q)` (K. L. Johnson, Contact Mechanics, ch. 13).
+//! n = 1 is a translation, which is the journal's. What varies along the axis, even about both ends, gives
+//! way as a half-space does under waves of the wave number q, `2 (1 - nu^2)/(E q)` (K. L. Johnson, Contact
+//! Mechanics, ch. 13).
 //!
 //! Limits: the plate is endless, the ends of the bodies are planes of symmetry.
 
