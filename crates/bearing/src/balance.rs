@@ -230,7 +230,7 @@ impl Balance {
     }
 
     /// Unbalanced force (N) and moment over the arm (N).
-    fn residual(&self, position: Coordinates, linearised: &Linearised) -> Coordinates {
+    pub(crate) fn residual(&self, position: Coordinates, linearised: &Linearised) -> Coordinates {
         let force = linearised.reaction.force();
         let moment = linearised.reaction.moment();
         let acceleration = self.motion.acceleration(position);
@@ -247,7 +247,7 @@ impl Balance {
     /// Newton step in m and rad. A film that has run empty on one side does not resist motion that
     /// way: where the step of a moving journal leaves the gap, a resistance is added that lets the
     /// residual move the journal by about half a gap (Levenberg); it fades with the residual.
-    fn newton_step(
+    pub(crate) fn newton_step(
         &self,
         residual: Coordinates,
         tangent: &Tangent,

@@ -38,6 +38,8 @@ fn rough(sigma: f64, contact: f64) -> Finish {
             factor: contact,
             asperity_product: 0.05,
             modulus: 53.3e9,
+            summit_height: 0.0,
+            summit_roughness: None,
         }),
         boundary_friction: 0.02,
     })
