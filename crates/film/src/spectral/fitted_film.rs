@@ -13,8 +13,7 @@
 //! |w| (sin(theta' - omega) - sin(theta - omega)) = (1 + (D/B)^2 front'^2) H^3 p_theta
 //! ```
 //! with omega the angle of the motion. The force follows to order d^2 too, so that a few updates
-//! suffice, and its derivatives are those at fixed fronts: by motion `-b A^-1 b`, symmetric, by
-//! eccentricity `u dA/de p` with the same two solutions u, no third.
+//! suffice, and its derivatives need no third solution: `u dA/de p` with the two u of unit motions.
 //! Limits: the film is torn apart on every line across the width; it is, up to widths of some
 //! diameters. Pressures over 12 eta R^2/c^2, motion over c.
 //! References: H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber, Das Schwimmlager, VDI 1933; trial free
@@ -214,8 +213,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             for side in 0..2 {
                 let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
                 let steep = 1.0 + (self.aspect * slope * slope).min(SLOPE_CAP);
-                let flux = dot(self.flux(side, g).0, self.motion);
-                let used = at.sin() + steep * flux / speed;
+                let used = at.sin() + steep * self.flux(side, g) / speed;
                 let beyond = std::f64::consts::PI - used.clamp(-1.0, 1.0).asin();
                 let wish = if side == 1 { beyond } else { beyond - TAU };
                 wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);

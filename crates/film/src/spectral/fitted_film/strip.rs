@@ -175,29 +175,37 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         sums
     }
 
-    /// Force and derivatives of the last solution at its fronts.
+    /// Force and derivatives of the last solution. Those by the place of the journal, along and across,
+    /// at fixed fronts; the one by the direction of motion with fronts that turn with it, `J F - eps
+    /// dF/dy` since the film knows only the angle between both: exact for a journal in the centre.
     pub(super) fn tangents(&self) -> AlignedForce {
-        let mut by_motion = self.resistance();
-        let force = [0, 1].map(|row| dot(by_motion[row], self.motion));
-        let per_square = 1.0 / dot(self.motion, self.motion);
-        let turn = [-self.motion[1] * per_square, self.motion[0] * per_square];
-        for (row, by_turn) in by_motion.iter_mut().zip(self.by_turn()) {
-            row[0] += by_turn * turn[0];
-            row[1] += by_turn * turn[1];
-        }
-        let mut by_eccentricity = [0.0; 2];
+        let force = self.force_of_answers();
+        let mut by_place = [[0.0; 2]; 2];
         self.walk(|point, _, slopes| {
             let film =
                 [0, 1].map(|way| self.motion[0] * slopes[0][way] + self.motion[1] * slopes[1][way]);
-            let change = -3.0 * point.gap * point.gap * point.normal[0] * point.area;
-            for (sum, answer) in by_eccentricity.iter_mut().zip(slopes) {
-                *sum += change * (answer[0] * film[0] + self.aspect * answer[1] * film[1]);
+            let change = -3.0 * point.gap * point.gap * point.area;
+            for (row, answer) in slopes.iter().enumerate() {
+                let lost = change * (answer[0] * film[0] + self.aspect * answer[1] * film[1]);
+                by_place[row][0] += lost * point.normal[0];
+                by_place[row][1] += lost * point.normal[1];
             }
         });
+        let by_turn = [
+            -force[1] - self.eps * by_place[0][1],
+            force[0] - self.eps * by_place[1][1],
+        ];
+        let per_square = 1.0 / dot(self.motion, self.motion);
+        let [along, across] = self.motion.map(|part| part * per_square);
         AlignedForce {
             force,
-            by_eccentricity,
-            by_motion,
+            by_eccentricity: by_place.map(|row| row[0]),
+            by_motion: [0, 1].map(|row| {
+                [
+                    force[row] * along - by_turn[row] * across,
+                    force[row] * across + by_turn[row] * along,
+                ]
+            }),
         }
     }
 
@@ -240,48 +248,26 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         }
     }
 
-    /// H^3 u_theta of both answers at a front, and H there.
-    pub(super) fn flux(&self, side: usize, g: usize) -> ([f64; 2], f64) {
+    /// H^3 p_theta at a front.
+    pub(super) fn flux(&self, side: usize, g: usize) -> f64 {
         let degree = self.accuracy.degree;
         let (element, r) = match side {
             0 => (0, 0),
             _ => (self.accuracy.elements - 1, degree),
         };
-        let mut rises = [0.0; 2];
+        let mut rise = 0.0;
         for i in 0..=degree {
             let Some(first) = self.unknown(element * degree + i) else {
                 continue;
             };
             let slope = self.element.slopes[r][i];
             for k in 0..M {
-                let share = slope * self.shapes.values[g][k];
-                rises[0] += share * self.answers[first + k][0];
-                rises[1] += share * self.answers[first + k][1];
+                let pressure = dot(self.answers[first + k], self.motion);
+                rise += slope * self.shapes.values[g][k] * pressure;
             }
         }
         let point = &self.points[(element * (degree + 1) + r) * G + g];
-        let unit = self.accuracy.elements as f64 * point.around * point.gap.powi(3);
-        (rises.map(|rise| rise * unit), point.gap)
-    }
-
-    /// Change of the force as both fronts turn with the motion: none where no flux is left at them.
-    /// Fronts of few terms leave some close to the ends, where they are tied to the motion.
-    fn by_turn(&self) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        for side in 0..2 {
-            let outward = if side == 1 { 1.0 } else { -1.0 };
-            for g in 0..G {
-                let (flux, gap) = self.flux(side, g);
-                let slope = self.fronts.slopes[side][g];
-                let steep = 1.0 + self.aspect * slope * slope;
-                let unit = outward * self.shapes.weights[g] * steep / gap.powi(3);
-                let film = dot(flux, self.motion);
-                for (sum, flux) in sums.iter_mut().zip(flux) {
-                    *sum -= unit * flux * film;
-                }
-            }
-        }
-        sums
+        self.accuracy.elements as f64 * rise * point.around * point.gap.powi(3)
     }
 
     /// Figures of the last solution.
