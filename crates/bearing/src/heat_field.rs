@@ -4,12 +4,15 @@
 //! temperatures are those of the heat that this film makes and its oil carries
 //! ([`sommerfeld_film::energy`]).
 //! Unknowns: position and tilt of the journal; temperature (K) of every cell and feed.
-//! Method: the equilibrium and the energy equation in turn; each round moves the temperatures by a share
-//! of their change, because a warmer film makes less heat, so that a whole change goes too far. The share
-//! falls where changes grow, and comes back. The journal is found to less while temperatures still move. Ends
-//! where no temperature changes by more than the tolerance.
+//! Method: the equilibrium and the energy equation in turn. A round foresees that a warmer film makes less
+//! heat, and the rounds before it are mixed in ([`crate::mixing`]). The journal is found to less while
+//! temperatures still move. Ends where no temperature changes by more than the tolerance, with the heat as
+//! it was made.
 
-use crate::equilibrium::{Equilibrium, EquilibriumRequest, find_beside, find_equilibrium};
+use crate::equilibrium::{
+    Equilibrium, EquilibriumRequest, EquilibriumSettings, find_beside, find_equilibrium,
+};
+use crate::mixing::Mixing;
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::{Bearing, Conditions, FilmError, FilmForce, Outcome, Surroundings, Warmed};
 
@@ -46,23 +49,18 @@ pub struct WarmEquilibrium {
     pub outcome: Outcome,
 }
 
-/// Largest share: what a film whose heat falls with its temperature can take.
-const FIRST_SHARE: f64 = 0.5;
-/// Smallest share.
-const LEAST_SHARE: f64 = 0.1;
-/// Changes above so many tolerances are followed with a journal found to these limits.
-const COARSE_CHANGES: f64 = 100.0;
-const COARSE_RESIDUAL: f64 = 1e-6;
-const COARSE_STEP: f64 = 1e-4;
+/// The journal is found to this share of what the temperatures still move, per K: of the load, and of the
+/// gap. A K moves both by some hundredths.
+const JOURNAL_SHARE: f64 = 1e-3;
+/// The same before a round has been made, K.
+const FIRST_CHANGE: f64 = 10.0;
 
-/// Share of the next round, from that of the last one and the ratio of its change to the one before. A
-/// change that grew was overshot; those of the first rounds, in which the ruptured film moves, may do so too,
-/// so that the share comes back.
-fn next_share(share: f64, ratio: f64) -> f64 {
-    if ratio > 1.1 {
-        (0.6 * share).max(LEAST_SHARE)
-    } else {
-        (1.3 * share).min(FIRST_SHARE)
+/// Limits of a search for the journal while temperatures still move by a change (K).
+fn coarse(exact: EquilibriumSettings, change: f64) -> EquilibriumSettings {
+    EquilibriumSettings {
+        residual_tolerance: exact.residual_tolerance.max(JOURNAL_SHARE * change),
+        step_tolerance: exact.step_tolerance.max(JOURNAL_SHARE * change),
+        ..exact
     }
 }
 
@@ -83,7 +81,11 @@ pub fn warm_equilibrium(
             reason: "a field of temperature needs model = \"field\"",
         });
     }
-    let mut request = *request;
+    let exact = request.settings;
+    let mut request = EquilibriumRequest {
+        settings: coarse(exact, FIRST_CHANGE),
+        ..*request
+    };
     let mut found = WarmEquilibrium {
         rest: find_equilibrium(film, bearing, &request, conditions)?,
         warmed: Warmed::default(),
@@ -91,37 +93,40 @@ pub fn warm_equilibrium(
         film_updates: 0,
         outcome: Outcome::NotConverged,
     };
-    let exact = request.settings;
-    let mut share = FIRST_SHARE;
+    let mut find_time=0.0; let mut mixing = Mixing::new();
     for _ in 0..settings.round_limit {
         found.film_updates += found.rest.film_updates;
         if found.rest.outcome != Outcome::Converged {
             found.outcome = found.rest.outcome;
             return Ok(found);
         }
-        film.account_heat(1.0);
-        let Some(warmed) = film.warm(surroundings, share) else {
+        let clock=std::time::Instant::now();film.account_heat(1.0);
+        let Some(mut warming) = film.led_to(surroundings, true) else {
             found.outcome = Outcome::NoSolution;
             return Ok(found);
         };
-        found.warmed = warmed;
-        if let Some(before) = found.changes.last() {
-            share = next_share(share, warmed.change / before);
+        let heat_time=clock.elapsed().as_secs_f64();
+        let is_exact = request.settings == exact;
+        if is_exact && warming.warmed.change <= settings.tolerance {
+            // What is said of the film is what it makes, not what it was foreseen to make.
+            warming = film.led_to(surroundings, false).unwrap_or(warming);
         }
-        let still_moves = warmed.change > COARSE_CHANGES * settings.tolerance;
-        found.changes.push(warmed.change);
-        if warmed.change <= settings.tolerance {
+        let change = warming.warmed.change;
+        found.warmed = warming.warmed;
+        found.changes.push(change);
+        if std::env::var("TRACE").is_ok() { println!("DBG heat {:.2} ms find {:.2} change {change:.4e} updates {} settings {:.1e} {:?}", 1e3*heat_time, 1e3*find_time, found.rest.film_updates, request.settings.step_tolerance, found.rest.table.iter().map(|r| (format!("{:.1e} {:.1e}", r.residual, r.step), r.settled)).collect::<Vec<_>>()); }
+        if is_exact && change <= settings.tolerance {
             found.outcome = Outcome::Converged;
             return Ok(found);
         }
-        if still_moves {
-            request.settings.residual_tolerance = exact.residual_tolerance.max(COARSE_RESIDUAL);
-            request.settings.step_tolerance = exact.step_tolerance.max(COARSE_STEP);
+        film.warm(&mixing.next(&warming.from, &warming.led_to));
+        request.settings = if change > 30.0 * settings.tolerance {
+            coarse(exact, change)
         } else {
-            request.settings = exact;
-        }
+            exact
+        };
         request.frame.tilt = found.rest.state.tilt;
-        found.rest = find_beside(film, bearing, &request, conditions, &found.rest)?;
+        let clock=std::time::Instant::now();found.rest = find_beside(film, bearing, &request, conditions, &found.rest)?;find_time=clock.elapsed().as_secs_f64();
     }
     Ok(found)
 }

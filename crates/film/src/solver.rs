@@ -17,7 +17,7 @@ use crate::film_state::FilmState;
 use crate::finish::Finish;
 use crate::force::{
     Capabilities, Conditions, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary,
-    Linearised, Outcome, Step, Tangent, Warmed,
+    Linearised, Outcome, Step, Tangent, Warming,
 };
 use crate::frame::Frame;
 use crate::gap::AngleTables;
@@ -565,8 +565,12 @@ impl FilmForce for FilmSolver {
         self.add_to_account(duration);
     }
 
-    fn warm(&mut self, surroundings: &Surroundings<'_>, share: f64) -> Option<Warmed> {
-        self.move_temperatures(surroundings, share)
+    fn led_to(&self, surroundings: &Surroundings<'_>, foresees: bool) -> Option<Warming> {
+        self.temperatures_led_to(surroundings, foresees)
+    }
+
+    fn warm(&mut self, cells: &[f64]) {
+        self.take_temperatures(cells);
     }
 
     fn accept_step(&mut self) {

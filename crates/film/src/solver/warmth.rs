@@ -2,8 +2,8 @@
 
 use super::FilmSolver;
 use crate::bearing::Inlet;
-use crate::energy::{HeatAccount, Surroundings};
-use crate::force::Warmed;
+use crate::energy::{Foresight, HeatAccount, Surroundings};
+use crate::force::{Warmed, Warming};
 use crate::passage::Passage;
 
 impl FilmSolver {
@@ -24,43 +24,69 @@ impl FilmSolver {
         self.film.heat = heat;
     }
 
-    /// See [`crate::FilmForce::warm`].
-    pub(super) fn move_temperatures(
-        &mut self,
+    /// See [`crate::FilmForce::led_to`].
+    pub(super) fn temperatures_led_to(
+        &self,
         surroundings: &Surroundings<'_>,
-        share: f64,
-    ) -> Option<Warmed> {
-        let account = self.film.account.as_mut()?;
-        let found = account.temperature(surroundings)?;
-        account.clear();
-        if self.film.passage.is_none() {
-            self.film.passage = Passage::new(&self.grid, None, false, true);
-        }
-        let reference = surroundings.supply.first().copied();
-        let reference = reference.unwrap_or(surroundings.ambient);
-        let cells = self
-            .film
-            .temperature
-            .get_or_insert_with(|| vec![reference; found.cells.len()]);
+        foresees: bool,
+    ) -> Option<Warming> {
+        let account = self.film.account.as_ref()?;
+        let at = self.film.reduced_at;
+        let from = match &self.film.temperature {
+            Some(cells) => cells.clone(),
+            None => vec![at; self.film.set.cells.len()],
+        };
+        let fall: Vec<f64> = if foresees {
+            from.iter().map(|t| self.fall_of_heat(*t)).collect()
+        } else {
+            Vec::new()
+        };
+        let foresight = Foresight {
+            made_at: &from,
+            fall: &fall,
+        };
+        let found = account.temperature(surroundings, foresees.then_some(&foresight))?;
         let mut warmed = Warmed {
             outlet: found.outlet,
             balance: self.extent.energy(found.balance),
             hottest: f64::NEG_INFINITY,
             ..Warmed::default()
         };
-        for (cell, led_to) in cells.iter_mut().zip(&found.cells) {
-            warmed.change = warmed.change.max((led_to - *cell).abs());
-            *cell += share * (led_to - *cell);
-            warmed.hottest = warmed.hottest.max(*cell);
-        }
         let m = self.grid.n_axial();
         let (mut sum, mut area) = (0.0, 0.0);
-        for (k, cell) in cells.iter().enumerate() {
-            sum += cell * self.grid.area(k / m, k % m);
+        for (k, (cell, led_to)) in from.iter().zip(&found.cells).enumerate() {
+            warmed.change = warmed.change.max((led_to - cell).abs());
+            warmed.hottest = warmed.hottest.max(*led_to);
+            sum += led_to * self.grid.area(k / m, k % m);
             area += self.grid.area(k / m, k % m);
         }
         warmed.mean = sum / area;
+        Some(Warming {
+            from,
+            led_to: found.cells,
+            warmed,
+        })
+    }
+
+    /// Share by which heat falls with the temperature (K) where it is made, 1/K: shear and pressure flow make
+    /// it in proportion to the viscosity where the oil's motion stays.
+    fn fall_of_heat(&self, temperature: f64) -> f64 {
+        let viscosity = self.lubricant.viscosity(temperature, 0.0);
+        let fall = -viscosity.by_temperature / viscosity.value;
+        if fall.is_finite() { fall.max(0.0) } else { 0.0 }
+    }
+
+    /// See [`crate::FilmForce::warm`].
+    pub(super) fn take_temperatures(&mut self, cells: &[f64]) {
+        if let Some(account) = &mut self.film.account {
+            account.clear();
+        }
+        if self.film.passage.is_none() {
+            self.film.passage = Passage::new(&self.grid, None, false, true);
+        }
+        let field = self.film.temperature.get_or_insert_default();
+        field.clear();
+        field.extend_from_slice(cells);
         self.film.is_warm = true;
-        Some(warmed)
     }
 }
