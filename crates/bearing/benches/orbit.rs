@@ -155,7 +155,7 @@ fn warm() {
     };
     let mut fastest = [f64::INFINITY; 2];
     let mut counts = [0; 3];
-    for _ in 0..5 {
+    for _ in 0..20 {
         let mut film = FilmSolver::aligned(&bearing, &oil, FINE).unwrap();
         let clock = Instant::now();
         let rest = find_equilibrium(&mut film, &bearing, &request, &CONDITIONS).unwrap();

@@ -9,12 +9,13 @@
 //! temperatures still move. Ends where no temperature changes by more than the tolerance, with the heat as
 //! it was made.
 
-use crate::equilibrium::{
-    Equilibrium, EquilibriumRequest, EquilibriumSettings, find_beside, find_equilibrium,
-};
+use crate::equilibrium::{Equilibrium, EquilibriumRequest, Round, find_in_round};
 use crate::mixing::Mixing;
+use crate::motion::{Coordinates, coordinates};
 use serde::{Deserialize, Serialize};
-use sommerfeld_film::{Bearing, Conditions, FilmError, FilmForce, Outcome, Surroundings, Warmed};
+use sommerfeld_film::{
+    Bearing, Conditions, FilmError, FilmForce, Outcome, Surroundings, Warmed, Warming,
+};
 
 /// When the rounds end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -49,25 +50,18 @@ pub struct WarmEquilibrium {
     pub outcome: Outcome,
 }
 
-/// The journal is found to this share of what the temperatures still move, per K: of the load, and of the
-/// gap. A K moves both by some hundredths.
-const JOURNAL_SHARE: f64 = 1e-3;
-/// The same before a round has been made, K.
-const FIRST_CHANGE: f64 = 10.0;
-
-/// Limits of a search for the journal while temperatures still move by a change (K).
-fn coarse(exact: EquilibriumSettings, change: f64) -> EquilibriumSettings {
-    EquilibriumSettings {
-        residual_tolerance: exact.residual_tolerance.max(JOURNAL_SHARE * change),
-        step_tolerance: exact.step_tolerance.max(JOURNAL_SHARE * change),
-        ..exact
-    }
-}
+/// While temperatures still move by a change, the journal is found to this share of it, per K: of the load,
+/// and of the gap. A K moves both by some hundredths.
+const JOURNAL_SHARE: f64 = 1e-2;
+/// Never to more than this share.
+const COARSEST: f64 = 0.1;
+/// On a coarser grid, changes (K) below those that its cells differ by from finer ones are none.
+const COARSE_TOLERANCE: f64 = 1.0;
 
 /// Finds the equilibrium in the film's own temperatures.
 ///
 /// # Errors
-/// As [`find_equilibrium`]; [`FilmError::Unsupported`] for a film without a field of temperature.
+/// As [`crate::find_equilibrium`]; [`FilmError::Unsupported`] for a film without a field of temperature.
 pub fn warm_equilibrium(
     film: &mut dyn FilmForce,
     bearing: &Bearing,
@@ -81,52 +75,143 @@ pub fn warm_equilibrium(
             reason: "a field of temperature needs model = \"field\"",
         });
     }
-    let exact = request.settings;
-    let mut request = EquilibriumRequest {
-        settings: coarse(exact, FIRST_CHANGE),
-        ..*request
+    let search = Search {
+        bearing,
+        request,
+        conditions,
+        surroundings,
+        settings,
     };
-    let mut found = WarmEquilibrium {
-        rest: find_equilibrium(film, bearing, &request, conditions)?,
-        warmed: Warmed::default(),
-        changes: Vec::new(),
-        film_updates: 0,
-        outcome: Outcome::NotConverged,
-    };
-    let mut find_time=0.0; let mut mixing = Mixing::new();
-    for _ in 0..settings.round_limit {
-        found.film_updates += found.rest.film_updates;
-        if found.rest.outcome != Outcome::Converged {
-            found.outcome = found.rest.outcome;
-            return Ok(found);
-        }
-        let clock=std::time::Instant::now();film.account_heat(1.0);
-        let Some(mut warming) = film.led_to(surroundings, true) else {
-            found.outcome = Outcome::NoSolution;
-            return Ok(found);
+    search.nested(film, settings.tolerance)
+}
+
+struct Search<'a> {
+    bearing: &'a Bearing,
+    request: &'a EquilibriumRequest,
+    conditions: &'a Conditions<'a>,
+    surroundings: &'a Surroundings<'a>,
+    settings: &'a HeatFieldSettings,
+}
+
+/// What a round begins with.
+struct Begin {
+    /// Where the journal may be.
+    journal: Option<Coordinates>,
+    /// Largest change of the round before, K.
+    change: f64,
+    goes_on: bool,
+}
+
+impl Search<'_> {
+    /// From what the film on a coarser grid finds, if it does.
+    fn nested(
+        &self,
+        film: &mut dyn FilmForce,
+        tolerance: f64,
+    ) -> Result<WarmEquilibrium, FilmError> {
+        let rough = film
+            .coarser()
+            .map(|coarse| self.nested(coarse, COARSE_TOLERANCE));
+        let known = match rough {
+            Some(Ok(rough)) if rough.outcome == Outcome::Converged => {
+                film.take_over();
+                Some(coordinates(&rough.rest.state))
+            }
+            _ => None,
         };
-        let heat_time=clock.elapsed().as_secs_f64();
-        let is_exact = request.settings == exact;
-        if is_exact && warming.warmed.change <= settings.tolerance {
-            // What is said of the film is what it makes, not what it was foreseen to make.
-            warming = film.led_to(surroundings, false).unwrap_or(warming);
-        }
-        let change = warming.warmed.change;
-        found.warmed = warming.warmed;
-        found.changes.push(change);
-        if std::env::var("TRACE").is_ok() { println!("DBG heat {:.2} ms find {:.2} change {change:.4e} updates {} settings {:.1e} {:?}", 1e3*heat_time, 1e3*find_time, found.rest.film_updates, request.settings.step_tolerance, found.rest.table.iter().map(|r| (format!("{:.1e} {:.1e}", r.residual, r.step), r.settled)).collect::<Vec<_>>()); }
-        if is_exact && change <= settings.tolerance {
-            found.outcome = Outcome::Converged;
-            return Ok(found);
-        }
-        film.warm(&mixing.next(&warming.from, &warming.led_to));
-        request.settings = if change > 30.0 * settings.tolerance {
-            coarse(exact, change)
-        } else {
-            exact
-        };
-        request.frame.tilt = found.rest.state.tilt;
-        let clock=std::time::Instant::now();found.rest = find_beside(film, bearing, &request, conditions, &found.rest)?;find_time=clock.elapsed().as_secs_f64();
+        self.rounds(film, known, tolerance)
     }
-    Ok(found)
+
+    /// Film and temperatures in turn.
+    fn rounds(
+        &self,
+        film: &mut dyn FilmForce,
+        known: Option<Coordinates>,
+        tolerance: f64,
+    ) -> Result<WarmEquilibrium, FilmError> {
+        let mut begin = Begin {
+            journal: known,
+            change: f64::INFINITY,
+            goes_on: true,
+        };
+        let mut found = WarmEquilibrium {
+            rest: self.rest(film, &begin)?,
+            warmed: Warmed::default(),
+            changes: Vec::new(),
+            film_updates: 0,
+            outcome: Outcome::NotConverged,
+        };
+        let mut mixing = Mixing::new();
+        for _ in 0..self.settings.round_limit {
+            found.film_updates += found.rest.film_updates;
+            if found.rest.outcome != Outcome::Converged {
+                found.outcome = found.rest.outcome;
+                return Ok(found);
+            }
+            film.account_heat(1.0);
+            let Some(mut warming) = film.led_to(self.surroundings, true) else {
+                found.outcome = Outcome::NoSolution;
+                return Ok(found);
+            };
+            if !begin.goes_on && warming.warmed.change <= tolerance {
+                // What is said of the film is what it makes, not what it was foreseen to make.
+                warming = film.led_to(self.surroundings, false).unwrap_or(warming);
+            }
+            let change = warming.warmed.change;
+            found.warmed = warming.warmed;
+            found.changes.push(change);
+            if std::env::var("TRACE").is_ok() { println!("DBG {} change {change:.4e} mean {:.3} updates {} goes_on {} {:?}", warming.from.len(), warming.warmed.mean, found.rest.film_updates, begin.goes_on, found.rest.table.iter().map(|r| (format!("{:.1e} {:.1e}", r.residual, r.step), r.settled)).collect::<Vec<_>>()); }
+            // A coarser grid is only asked where to begin.
+            let is_exact = !begin.goes_on || tolerance > self.settings.tolerance;
+            if is_exact && change <= tolerance {
+                found.outcome = Outcome::Converged;
+                return Ok(found);
+            }
+            let goes_on = begin.goes_on && change > tolerance;
+            begin = self.next(film, &mut mixing, warming, begin.journal, &found.rest);
+            begin.goes_on = goes_on;
+            found.rest = self.rest(film, &begin)?;
+        }
+        Ok(found)
+    }
+
+    /// Warms the film to the mix of this round and those before it; the journal goes along.
+    fn next(
+        &self,
+        film: &mut dyn FilmForce,
+        mixing: &mut Mixing,
+        mut warming: Warming,
+        begun: Option<Coordinates>,
+        rest: &Equilibrium,
+    ) -> Begin {
+        let cells = warming.from.len();
+        let journal = coordinates(&rest.state);
+        warming.from.extend(begun.unwrap_or(journal));
+        warming.led_to.extend(journal);
+        let next = mixing.next(&warming.from, &warming.led_to, cells);
+        film.warm(&next[..cells]);
+        let mut journal = [0.0; 4];
+        journal.copy_from_slice(&next[cells..]);
+        Begin {
+            journal: Some(journal),
+            change: warming.warmed.change,
+            goes_on: true,
+        }
+    }
+
+    /// The journal in the film as warm as it is: as exactly as the temperatures deserve.
+    fn rest(&self, film: &mut dyn FilmForce, begin: &Begin) -> Result<Equilibrium, FilmError> {
+        let mut request = *self.request;
+        if begin.goes_on {
+            let share = (JOURNAL_SHARE * begin.change).min(COARSEST);
+            let exact = &mut request.settings;
+            exact.residual_tolerance = exact.residual_tolerance.max(share);
+            exact.step_tolerance = exact.step_tolerance.max(share / 3.0);
+        }
+        let round = Round {
+            start: begin.journal,
+            goes_on: begin.goes_on,
+        };
+        find_in_round(film, self.bearing, &request, self.conditions, &round)
+    }
 }

@@ -1,7 +1,7 @@
 //! Which temperatures to try next, when film and temperatures are found in turn?
 //!
 //! Equation: `G(T) = T`, where G is what a round leads to from temperatures T.
-//! Unknowns: the temperature (K) of every cell.
+//! Unknowns: the temperature (K) of every cell; the journal, m and rad, comes along.
 //! Method: the mix of the last rounds whose changes `G(T) - T` cancel best, by least squares, and from there
 //! its change (Anderson). A round whose changes grew forgets the ones before it and goes a smaller share;
 //! no step is longer than what the laws of an oil vary little over.
@@ -41,8 +41,10 @@ impl Mixing {
         }
     }
 
-    /// The next temperatures, after a round that led from some to others.
-    pub(crate) fn next(&mut self, from: &[f64], led_to: &[f64]) -> Vec<f64> {
+    /// The next values, after a round that led from some to others: so many temperatures, then what goes
+    /// along with their mix and has no say in it.
+    pub(crate) fn next(&mut self, from: &[f64], led_to: &[f64], temperatures: usize) -> Vec<f64> {
+        let size = |all: &[f64]| size(&all[..temperatures]);
         let change = minus(led_to, from);
         if let Some((before, last)) = self.last.take() {
             if size(&change) > GROWTH * size(&last) {
@@ -55,29 +57,31 @@ impl Mixing {
                 self.differences.truncate(DEPTH);
             }
         }
-        let mut step: Vec<f64> = change.iter().map(|f| self.share * f).collect();
-        for (weight, (moved, changed)) in self.weights(&change).iter().zip(&self.differences) {
+        let share = |k: usize| if k < temperatures { self.share } else { 1.0 };
+        let changes = change.iter().enumerate();
+        let mut step: Vec<f64> = changes.map(|(k, f)| share(k) * f).collect();
+        let weights = self.weights(&change, temperatures);
+        for (weight, (moved, changed)) in weights.iter().zip(&self.differences) {
             for (k, step) in step.iter_mut().enumerate() {
-                *step -= weight * (moved[k] + self.share * changed[k]);
+                *step -= weight * (moved[k] + share(k) * changed[k]);
             }
         }
-        let longest = step.iter().fold(LONGEST_STEP, |a, b| a.max(b.abs()));
-        let next = step
-            .iter()
-            .zip(from)
-            .map(|(s, t)| t + s * LONGEST_STEP / longest);
-        let next = next.collect();
+        let warmest = step[..temperatures].iter();
+        let longest = warmest.fold(LONGEST_STEP, |a, b| a.max(b.abs()));
+        let next = step.iter().zip(from);
+        let next = next.map(|(s, t)| t + s * LONGEST_STEP / longest).collect();
         self.last = Some((from.to_vec(), change));
         next
     }
 
     /// Weights of the differences that leave least of a change.
-    fn weights(&self, change: &[f64]) -> [f64; DEPTH] {
+    fn weights(&self, change: &[f64], temperatures: usize) -> [f64; DEPTH] {
+        let dot = |a: &[f64], b: &[f64]| dot(&a[..temperatures], &b[..temperatures]);
         let mut matrix = [[0.0; DEPTH]; DEPTH];
         let mut right = [0.0; DEPTH];
         let mut scales = [1.0; DEPTH];
         for (row, (_, a)) in self.differences.iter().enumerate() {
-            scales[row] = size(a).max(f64::MIN_POSITIVE);
+            scales[row] = dot(a, a).sqrt().max(f64::MIN_POSITIVE);
             right[row] = dot(a, change) / scales[row];
             for (column, (_, b)) in self.differences.iter().enumerate().take(row + 1) {
                 matrix[row][column] = dot(a, b) / scales[row] / scales[column];
@@ -125,7 +129,7 @@ mod tests {
         for _ in 0..5 {
             let led_to = round(&cells);
             // No round is taken for one that was led astray: the mixing is what is tested.
-            cells = mixing.next(&cells, &led_to);
+            cells = mixing.next(&cells, &led_to, COUNT);
             if let Some((_, change)) = &mut mixing.last {
                 assert!(change.iter().all(|f| f.is_finite()));
             }
@@ -143,7 +147,7 @@ mod tests {
         let mut cells = vec![300.0, 310.0];
         for _ in 0..20 {
             let led_to: Vec<f64> = cells.iter().map(|t| t * t).collect();
-            let next = mixing.next(&cells, &led_to);
+            let next = mixing.next(&cells, &led_to, COUNT);
             assert!(minus(&next, &cells).iter().all(|s| s.abs() <= LONGEST_STEP));
             cells = next;
         }

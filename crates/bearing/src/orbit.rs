@@ -251,7 +251,7 @@ impl Run<'_> {
         }
         self.warmed = warming.warmed;
         self.changes.push(self.warmed.change);
-        let next = self.mixing.next(&warming.from, &warming.led_to);
+        let next = self.mixing.next(&warming.from, &warming.led_to, warming.from.len());
         self.film.warm(&next);
         Some(self.warmed.change <= heat.tolerance)
     }
@@ -317,6 +317,7 @@ impl<'a> Run<'a> {
                 },
                 gap_loss: settings.largest_gap_loss,
                 takes_last_step: !capabilities.has_history,
+                needs_settled: true,
             },
             has_history: capabilities.has_history,
             film_solves: 0,

@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 const NOTHING: f64 = 1e-10;
 
 /// What flows and what heats, averaged over the time that was accounted for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct HeatAccount {
     periodic: bool,
     n_axial: usize,
@@ -47,6 +47,8 @@ pub struct HeatAccount {
     taken: Vec<Vec<f64>>,
     /// The feed that a cell belonged to last.
     home: Vec<Option<usize>>,
+    /// Room for the factors of the equations.
+    factor: Option<RingFactor>,
 }
 
 /// One instant of a film for [`HeatAccount::add`]; SI.
@@ -157,6 +159,7 @@ impl HeatAccount {
             given: vec![vec![0.0; n * m]; feeds],
             taken: vec![vec![0.0; n * m]; feeds],
             home: vec![None; n * m],
+            factor: None,
         }
     }
 
@@ -255,7 +258,7 @@ impl HeatAccount {
     /// nothing was accounted for, or where heat is made in oil that nothing replaces.
     #[must_use]
     pub fn temperature(
-        &self,
+        &mut self,
         surroundings: &Surroundings<'_>,
         foresight: Option<&Foresight<'_>>,
     ) -> Option<FilmTemperature> {
@@ -271,13 +274,16 @@ impl HeatAccount {
         if let Some(foresight) = foresight {
             system.foresee(self, foresight, surroundings.volumetric_heat, reference);
         }
-        let mut factor = RingFactor::new(&system.matrix);
+        let kept = self.factor.take();
+        let mut factor = kept.unwrap_or_else(|| RingFactor::new(&system.matrix));
         if !factor.factor(&system.matrix) {
             return None;
         }
         let mut cells = system.rhs.clone();
         factor.solve(&mut cells);
-        let feeds = self.mixed(&mut factor, &mut cells, &system, surroundings, reference)?;
+        let feeds = self.mixed(&mut factor, &mut cells, &system, surroundings, reference);
+        self.factor = Some(factor);
+        let feeds = feeds?;
         for (k, cell) in cells.iter_mut().enumerate() {
             if let (true, Some(feed)) = (system.stands_still[k], self.home[k]) {
                 *cell = feeds[feed];

@@ -83,12 +83,20 @@ pub trait FilmForce {
     /// The temperatures that the account of the film's heat leads to, with the heat as it was made or, if
     /// `foresees`, as it will be there; both agree where the film has these temperatures. `None` for models
     /// without a field of temperature, and where heat has no way out.
-    fn led_to(&self, _surroundings: &Surroundings<'_>, _foresees: bool) -> Option<Warming> {
+    fn led_to(&mut self, _surroundings: &Surroundings<'_>, _foresees: bool) -> Option<Warming> {
         None
     }
 
     /// Gives the film temperatures (K) for each of the cells of [`Warming`], and begins a new account.
     fn warm(&mut self, _cells: &[f64]) {}
+
+    /// The same film on a coarser grid, for callers that bring it to rest first; `None` for films without.
+    fn coarser(&mut self) -> Option<&mut dyn FilmForce> {
+        None
+    }
+
+    /// Begins with what the coarser film found: its cavitated set and temperatures.
+    fn take_over(&mut self) {}
 
     /// The last implicit step becomes history: the next one starts from its film content.
     fn accept_step(&mut self) {}

@@ -565,12 +565,22 @@ impl FilmForce for FilmSolver {
         self.add_to_account(duration);
     }
 
-    fn led_to(&self, surroundings: &Surroundings<'_>, foresees: bool) -> Option<Warming> {
+    fn led_to(&mut self, surroundings: &Surroundings<'_>, foresees: bool) -> Option<Warming> {
         self.temperatures_led_to(surroundings, foresees)
     }
 
     fn warm(&mut self, cells: &[f64]) {
         self.take_temperatures(cells);
+    }
+
+    fn coarser(&mut self) -> Option<&mut dyn FilmForce> {
+        let coarse = self.coarse.as_deref_mut()?;
+        Some(coarse)
+    }
+
+    fn take_over(&mut self) {
+        self.take_coarse_set();
+        self.take_coarse_temperatures();
     }
 
     fn accept_step(&mut self) {

@@ -166,7 +166,7 @@ fn walls_beside_a_groove_are_in_the_balance() {
 
 #[test]
 fn nothing_accounted_for_has_no_temperature() {
-    let account = HeatAccount::new(&uniform(4, 2), 0.05, true, 0);
+    let mut account = HeatAccount::new(&uniform(4, 2), 0.05, true, 0);
     assert!(account.temperature(&surroundings(&[]), None).is_none());
 }
 

@@ -26,11 +26,10 @@ impl FilmSolver {
 
     /// See [`crate::FilmForce::led_to`].
     pub(super) fn temperatures_led_to(
-        &self,
+        &mut self,
         surroundings: &Surroundings<'_>,
         foresees: bool,
     ) -> Option<Warming> {
-        let account = self.film.account.as_ref()?;
         let at = self.film.reduced_at;
         let from = match &self.film.temperature {
             Some(cells) => cells.clone(),
@@ -45,6 +44,7 @@ impl FilmSolver {
             made_at: &from,
             fall: &fall,
         };
+        let account = self.film.account.as_mut()?;
         let found = account.temperature(surroundings, foresees.then_some(&foresight))?;
         let mut warmed = Warmed {
             outlet: found.outlet,
@@ -89,4 +89,45 @@ impl FilmSolver {
         field.extend_from_slice(cells);
         self.film.is_warm = true;
     }
+
+    /// See [`crate::FilmForce::take_over`].
+    pub(super) fn take_coarse_temperatures(&mut self) {
+        let Some(coarse) = &self.coarse else { return };
+        let Some(known) = coarse.film.temperature.as_deref() else {
+            return;
+        };
+        let is_ring = self.bearing.inlet == Inlet::Cyclic;
+        let (n, m) = (self.grid.n_around(), self.grid.n_axial());
+        let (rough_n, rough_m) = (coarse.grid.n_around(), coarse.grid.n_axial());
+        let around: Vec<_> = (0..n).map(|i| between(i, n, rough_n, is_ring)).collect();
+        let along: Vec<_> = (0..m).map(|j| between(j, m, rough_m, false)).collect();
+        let cells = (0..n * m).map(|k| {
+            let [stations, rows] = [&around[k / m], &along[k % m]];
+            let mut temperature = 0.0;
+            for (i, by_station) in stations {
+                for (j, by_row) in rows {
+                    temperature += by_station * by_row * known[i * rough_m + j];
+                }
+            }
+            temperature
+        });
+        let cells: Vec<f64> = cells.collect();
+        self.take_temperatures(&cells);
+    }
+}
+
+/// Both coarse cells that a fine one lies between, with their weights, where a coarse cell is cut into equal
+/// ones.
+fn between(fine: usize, of: usize, coarse: usize, is_ring: bool) -> [(usize, f64); 2] {
+    let parts = of / coarse;
+    let parent = fine / parts;
+    // From the parent's middle, in its widths.
+    let place = ((fine % parts) as f64 + 0.5) / parts as f64 - 0.5;
+    let beside = match (place < 0.0, is_ring) {
+        (true, true) => (parent + coarse - 1) % coarse,
+        (true, false) => parent.saturating_sub(1),
+        (false, true) => (parent + 1) % coarse,
+        (false, false) => (parent + 1).min(coarse - 1),
+    };
+    [(parent, 1.0 - place.abs()), (beside, place.abs())]
 }
