@@ -123,8 +123,8 @@ pub fn find_equilibrium(
 pub(crate) struct Round {
     /// Where the journal may be: without a probe of the film elsewhere. `None` in the first round.
     pub start: Option<Coordinates>,
-    /// The row goes on: the film need not be settled, and the journal is where the last step leads, of which
-    /// the film does not know yet.
+    /// The row goes on: the film need not be settled, the journal is where the last step leads, of which the
+    /// film does not know yet, and nobody asks for a summary.
     pub goes_on: bool,
 }
 
@@ -187,7 +187,11 @@ fn search_from(
     Ok(Equilibrium {
         state: found.state,
         reaction: found.linearised.reaction,
-        summary: film.summary(),
+        summary: if round.goes_on {
+            FilmSummary::default()
+        } else {
+            film.summary()
+        },
         tangent: found.linearised.tangent,
         residual: found.residual,
         table: found.table,

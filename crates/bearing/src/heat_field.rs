@@ -22,7 +22,7 @@ use sommerfeld_film::{
 pub struct HeatFieldSettings {
     /// Largest change of a temperature that may be left out, K. Default 1e-3.
     pub tolerance: f64,
-    /// Rounds at most. Default 60.
+    /// Rounds at most, on each grid. Default 60.
     pub round_limit: usize,
 }
 
@@ -44,7 +44,7 @@ pub struct WarmEquilibrium {
     pub warmed: Warmed,
     /// Largest change of a temperature per round, K.
     pub changes: Vec<f64>,
-    /// Film updates of all rounds.
+    /// Film updates of all rounds, on the film's own grid: those on coarser ones cost a few of them.
     pub film_updates: usize,
     /// How it ended: [`Outcome::NoSolution`] where the heat has no way out.
     pub outcome: Outcome,
@@ -55,6 +55,8 @@ pub struct WarmEquilibrium {
 const JOURNAL_SHARE: f64 = 1e-2;
 /// Never to more than this share.
 const COARSEST: f64 = 0.1;
+/// Changes below so many tolerances are followed by rounds that find the journal as exactly as asked for.
+const NEARLY: f64 = 3.0;
 /// On a coarser grid, changes (K) below those that its cells differ by from finer ones are none.
 const COARSE_TOLERANCE: f64 = 1.0;
 
@@ -160,16 +162,19 @@ impl Search<'_> {
             let change = warming.warmed.change;
             found.warmed = warming.warmed;
             found.changes.push(change);
-            if std::env::var("TRACE").is_ok() { println!("DBG {} change {change:.4e} mean {:.3} updates {} goes_on {} {:?}", warming.from.len(), warming.warmed.mean, found.rest.film_updates, begin.goes_on, found.rest.table.iter().map(|r| (format!("{:.1e} {:.1e}", r.residual, r.step), r.settled)).collect::<Vec<_>>()); }
             // A coarser grid is only asked where to begin.
             let is_exact = !begin.goes_on || tolerance > self.settings.tolerance;
             if is_exact && change <= tolerance {
                 found.outcome = Outcome::Converged;
                 return Ok(found);
             }
-            let goes_on = begin.goes_on && change > tolerance;
+            let goes_on = begin.goes_on && change > NEARLY * tolerance;
             begin = self.next(film, &mut mixing, warming, begin.journal, &found.rest);
             begin.goes_on = goes_on;
+            found.rest = self.rest(film, &begin)?;
+        }
+        if begin.goes_on {
+            begin.goes_on = false;
             found.rest = self.rest(film, &begin)?;
         }
         Ok(found)

@@ -251,7 +251,9 @@ impl Run<'_> {
         }
         self.warmed = warming.warmed;
         self.changes.push(self.warmed.change);
-        let next = self.mixing.next(&warming.from, &warming.led_to, warming.from.len());
+        let next = self
+            .mixing
+            .next(&warming.from, &warming.led_to, warming.from.len());
         self.film.warm(&next);
         Some(self.warmed.change <= heat.tolerance)
     }

@@ -226,10 +226,11 @@ impl Passage {
         }
     }
 
-    /// Leaves in the gap the smooth height that conducts as much.
+    /// Leaves in the gap what conducts.
     fn fill_axial(&mut self, gap: &mut Gap, state: &PassageState<'_>) {
         let (n, m) = (state.grid.n_around(), state.grid.n_axial());
         let c = state.clearance;
+        gap.axial_cubed.resize(n * (m + 1), 0.0);
         for face in 0..n * (m + 1) {
             let (i, j) = (face / (m + 1), face % (m + 1));
             let nominal = gap.axial[face];
@@ -241,14 +242,14 @@ impl Passage {
                     let cubed = conductance.value / c.powi(3);
                     (cubed, slope, mean.value / c, mean.contact_factor)
                 }
-                None => (nominal.powi(3), 3.0 / nominal, nominal, 1.0),
+                None => (nominal * nominal * nominal, 3.0 / nominal, nominal, 1.0),
             };
             let cells = [(j > 0).then(|| i * m + j - 1), (j < m).then_some(i * m + j)];
             let (fluidity, temperature) = self.warm_fluidity(state, cells);
             let (thinned, by_height) = self.thinned(state, mean, temperature);
             slope -= by_height * mean_slope;
             self.axial_slopes[face] = slope;
-            gap.axial[face] = (cubed * fluidity / thinned).cbrt();
+            gap.axial_cubed[face] = cubed * fluidity / thinned;
         }
     }
 }
