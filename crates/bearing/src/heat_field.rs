@@ -10,7 +10,7 @@
 //! it was made.
 
 use crate::equilibrium::{Equilibrium, EquilibriumRequest, Round, find_in_round};
-use crate::mixing::Mixing;
+use crate::mixing::{DEPTH, Mixing};
 use crate::motion::{Coordinates, coordinates};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::{
@@ -143,7 +143,7 @@ impl Search<'_> {
             film_updates: 0,
             outcome: Outcome::NotConverged,
         };
-        let mut mixing = Mixing::new();
+        let mut mixing = Mixing::new(DEPTH);
         for _ in 0..self.settings.round_limit {
             found.film_updates += found.rest.film_updates;
             if found.rest.outcome != Outcome::Converged {

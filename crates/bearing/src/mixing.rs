@@ -11,8 +11,8 @@
 use crate::dense::solve;
 use std::collections::VecDeque;
 
-/// Rounds that are mixed with the present one.
-const DEPTH: usize = 4;
+/// Rounds that are mixed with the present one, at most.
+pub(crate) const DEPTH: usize = 4;
 /// Smallest share of a change.
 const LEAST_SHARE: f64 = 0.1;
 /// Changes that grew by this were led astray.
@@ -27,6 +27,7 @@ const ROUND_OFF: f64 = 1e-10;
 /// The rounds so far.
 #[derive(Debug, Clone)]
 pub(crate) struct Mixing {
+    depth: usize,
     share: f64,
     /// Temperatures and changes of the last round.
     last: Option<(Vec<f64>, Vec<f64>)>,
@@ -35,8 +36,11 @@ pub(crate) struct Mixing {
 }
 
 impl Mixing {
-    pub(crate) fn new() -> Self {
+    /// Mixes so many rounds with the present one; none of them where rounds differ by more than their
+    /// temperatures.
+    pub(crate) fn new(depth: usize) -> Self {
         Self {
+            depth: depth.min(DEPTH),
             share: 1.0,
             last: None,
             differences: VecDeque::new(),
@@ -55,7 +59,7 @@ impl Mixing {
             } else {
                 self.differences
                     .push_front((minus(from, &before), minus(&change, &last)));
-                self.differences.truncate(DEPTH);
+                self.differences.truncate(self.depth);
             }
             self.share = if grew {
                 (0.5 * self.share).max(LEAST_SHARE)
@@ -130,7 +134,7 @@ mod tests {
                 .map(|k| fixed[k] + rate[k] * (from[k] - fixed[k]))
                 .collect()
         };
-        let mut mixing = Mixing::new();
+        let mut mixing = Mixing::new(DEPTH);
         let mut cells = vec![300.0; 5];
         for _ in 0..5 {
             let led_to = round(&cells);
@@ -145,7 +149,7 @@ mod tests {
     /// Without a way to a fixed point it stays finite, and no step is longer than it may be.
     #[test]
     fn steps_are_bounded() {
-        let mut mixing = Mixing::new();
+        let mut mixing = Mixing::new(DEPTH);
         let mut cells = vec![300.0, 310.0];
         for _ in 0..20 {
             let led_to: Vec<f64> = cells.iter().map(|t| t * t).collect();

@@ -348,7 +348,8 @@ impl<'a> Run<'a> {
             heat: None,
             warmed: Warmed::default(),
             changes: Vec::new(),
-            mixing: Mixing::new(),
+            // A cycle differs from the one before by its journal and film content too.
+            mixing: Mixing::new(0),
         })
     }
 
