@@ -164,10 +164,10 @@ impl Passage {
             let nominal = self.height[k];
             let (mean, slopes, shearing) = match &mut self.rough {
                 Some(RoughLaws { factors, cell, .. }) => {
-                    let over = factors.sigma() / state.clearance;
+                    let per_sigma = state.clearance / factors.sigma();
                     let mean = factors.mean_gap(nominal * state.clearance);
                     let [(stress, _), (difference, _)] =
-                        cell.at(nominal / over, |h| factors.at_cell(h));
+                        cell.at(nominal * per_sigma, |h| factors.at_cell(h));
                     let difference = difference / nominal;
                     // Where the surfaces overlap the factor is zero faster than the gap.
                     let difference = if difference.is_finite() {
@@ -180,7 +180,7 @@ impl Passage {
                     (
                         mean.value / state.clearance,
                         slopes,
-                        [stress / over, difference],
+                        [stress * per_sigma, difference],
                     )
                 }
                 None => (nominal, [1.0, 0.0], [1.0 / nominal, 0.0]),
@@ -231,16 +231,17 @@ impl Passage {
             }) = &mut self.rough
             {
                 let over = factors.sigma() / c;
+                let per_sigma = c / factors.sigma();
                 let [conductance, drag, pressing] =
-                    around.at(nominal / over, |h| factors.at_face(h));
+                    around.at(nominal * per_sigma, |h| factors.at_face(h));
                 let mean = factors.mean_gap(nominal * c);
                 let half = 0.5 * state.sliding * over;
                 gap.around_cubed[face] = over * over * over * conductance.0;
-                conducting = conductance.1 / conductance.0 / over;
+                conducting = conductance.1 / conductance.0 * per_sigma;
                 gap.around_transport[face] = mean.value / c;
                 carried_slope = mean.contact_factor;
                 self.drag[face] = half * drag.0;
-                drag_slope = half * drag.1 / over;
+                drag_slope = half * drag.1 * per_sigma;
                 self.pressing[face] = pressing.0;
             }
             let around = [(i + n - 1) % n * m + j, i % n * m + j];
@@ -268,9 +269,10 @@ impl Passage {
             let (cubed, mut slope, mean, mean_slope) = match &mut self.rough {
                 Some(RoughLaws { factors, along, .. }) => {
                     let over = factors.sigma() / c;
-                    let [conductance] = along.at(nominal / over, |h| factors.at_end(h));
+                    let per_sigma = c / factors.sigma();
+                    let [conductance] = along.at(nominal * per_sigma, |h| factors.at_end(h));
                     let mean = factors.mean_gap(nominal * c);
-                    let slope = conductance.1 / conductance.0 / over;
+                    let slope = conductance.1 / conductance.0 * per_sigma;
                     let cubed = over * over * over * conductance.0;
                     (cubed, slope, mean.value / c, mean.contact_factor)
                 }

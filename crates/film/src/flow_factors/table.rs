@@ -67,17 +67,20 @@ impl<const N: usize> LawTable<N> {
         let cell = &mut self.cells[first + within];
         if cell[0][0].is_nan() {
             let middle = from + (within as f64 + 0.5) / per_unit;
-            *cell = fitted(middle, 0.5 / per_unit, laws);
+            *cell = fitted(middle, 0.5 / per_unit, &laws);
         }
         let t = 2.0 * (place - within as f64) - 1.0;
-        cell.each_ref().map(|polynomial| {
+        let mut readings = [(0.0, 0.0); N];
+        for (reading, polynomial) in readings.iter_mut().zip(&*cell) {
             let (value, slope) = read(polynomial, t);
-            (value, 2.0 * per_unit * slope)
-        })
+            *reading = (value, 2.0 * per_unit * slope);
+        }
+        readings
     }
 }
 
 /// Value and slope of a polynomial.
+#[inline]
 fn read(a: &Polynomial, t: f64) -> Reading {
     let square = t * t;
     let even = a[0] + square * (a[2] + square * a[4]);
@@ -88,10 +91,11 @@ fn read(a: &Polynomial, t: f64) -> Reading {
 }
 
 /// Polynomials of a cell from its middle and half its width.
+#[cold]
 fn fitted<const N: usize>(
     middle: f64,
     half: f64,
-    laws: impl Fn(f64) -> [Reading; N],
+    laws: &impl Fn(f64) -> [Reading; N],
 ) -> [Polynomial; N] {
     let place = BETWEEN.sqrt();
     let [low, inner_low, inner_high, high] =
