@@ -527,9 +527,15 @@ impl FilmForce for FilmSolver {
                 seen.outcome = Outcome::NotConverged;
                 break;
             }
-            // What the film left its feeds may have changed.
-            self.film
-                .place_feeds(&self.bearing, self.extent, conditions);
+            if self.film.expansion.displacement.is_empty() {
+                // What the film left its feeds may have changed.
+                self.film
+                    .place_feeds(&self.bearing, self.extent, conditions);
+            } else {
+                // A shell that gave way has another gap, about which the film is linearised.
+                let turned = self.frame.turn(state);
+                self.prepare(&self.frame.to_grid(state, turned), step, conditions);
+            }
             seen = self.update(state, step, Wanted::Reaction);
             updates += 1;
         }
