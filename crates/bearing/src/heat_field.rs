@@ -4,10 +4,11 @@
 //! temperatures are those of the heat that this film makes and its oil carries
 //! ([`sommerfeld_film::energy`]).
 //! Unknowns: position and tilt of the journal; temperature (K) of every cell and feed.
-//! Method: the equilibrium and the energy equation in turn. A round foresees that a warmer film makes less
-//! heat, and the rounds before it are mixed in ([`crate::mixing`]). The journal is found to less while
-//! temperatures still move. Ends where no temperature changes by more than the tolerance, with the heat as
-//! it was made.
+//! Method: the equilibrium and the energy equation in turn, on coarser grids first. A round foresees that a
+//! warmer film makes less heat; the rounds before it are mixed in (`mixing`), and the journal's positions
+//! with them. While temperatures still move, the journal goes one step of Newton per round or few, and the
+//! cavitated set need not be settled. Ends where no temperature changes by more than the tolerance, with an
+//! exact equilibrium and the heat as it was made.
 
 use crate::equilibrium::{Equilibrium, EquilibriumRequest, Round, find_in_round};
 use crate::mixing::{DEPTH, Mixing};
