@@ -169,6 +169,9 @@ pub(crate) struct NewtonLimits {
     /// Take the last step too (without another film update; the reaction follows by its tangent).
     /// Not for films with history, whose content belongs to the position they were asked at.
     pub takes_last_step: bool,
+    /// Ends only with a settled film; else also while its cavitated set still moves, for callers that come
+    /// back.
+    pub needs_settled: bool,
 }
 
 impl NewtonLimits {
@@ -372,7 +375,7 @@ impl Balance {
                 break;
             };
             let relative_step = length(step, self.arm) / gap.abs();
-            let done = linearised.settled
+            let done = (linearised.settled || !limits.needs_settled)
                 && size <= limits.residual
                 && relative_step <= limits.last_step();
             let taken = if done {

@@ -128,18 +128,32 @@ pub fn find_equilibrium(
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
 ) -> Result<Equilibrium, FilmError> {
-    search_from(film, bearing, request, conditions, None)
+    let once = Round {
+        start: None,
+        goes_on: false,
+    };
+    search_from(film, bearing, request, conditions, &once)
 }
 
-/// [`find_equilibrium`] next to one that was found: without a probe of the film elsewhere.
-pub(crate) fn find_beside(
+/// Where and how a search for one of a row of equilibria begins.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Round {
+    /// Where the journal may be: without a probe of the film elsewhere. `None` in the first round.
+    pub start: Option<Coordinates>,
+    /// The row goes on: the film need not be settled, the journal is where the last step leads, of which the
+    /// film does not know yet, and nobody asks for a summary.
+    pub goes_on: bool,
+}
+
+/// [`find_equilibrium`] as one of a row in which the film changes.
+pub(crate) fn find_in_round(
     film: &mut dyn FilmForce,
     bearing: &Bearing,
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
-    found: &Equilibrium,
+    round: &Round,
 ) -> Result<Equilibrium, FilmError> {
-    search_from(film, bearing, request, conditions, Some(found))
+    search_from(film, bearing, request, conditions, round)
 }
 
 fn search_from(
@@ -147,7 +161,7 @@ fn search_from(
     bearing: &Bearing,
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
-    beside: Option<&Equilibrium>,
+    round: &Round,
 ) -> Result<Equilibrium, FilmError> {
     let mut search = Search {
         balance: Balance {
@@ -164,15 +178,20 @@ fn search_from(
             residual: request.settings.residual_tolerance,
             step: request.settings.step_tolerance,
             gap_loss: request.settings.largest_gap_loss,
-            takes_last_step: false,
+            takes_last_step: round.goes_on,
+            needs_settled: !round.goes_on,
         },
         clearance: bearing.radial_clearance,
         conditions,
     };
-    let start = match beside {
-        Some(found) if search.balance.force_scale > 0.0 => coordinates(&found.state),
+    let mut probes = 0;
+    let start = match round.start {
+        Some(start) if search.balance.force_scale > 0.0 => start,
         _ => match search.start(film, request)? {
-            Start::At(start) => start,
+            Start::At(start) => {
+                probes = 1;
+                start
+            }
             Start::Nowhere(outcome) => return Ok(search.failed(film, outcome)),
         },
     };
@@ -185,11 +204,15 @@ fn search_from(
     Ok(Equilibrium {
         state: found.state,
         reaction: found.linearised.reaction,
-        summary: film.summary(),
+        summary: if round.goes_on {
+            FilmSummary::default()
+        } else {
+            film.summary()
+        },
         tangent: found.linearised.tangent,
         residual: found.residual,
         table: found.table,
-        film_updates: found.film_updates + 1,
+        film_updates: found.film_updates + probes,
         outcome: found.outcome,
     })
 }
