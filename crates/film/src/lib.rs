@@ -47,6 +47,7 @@ mod shape_table;
 pub mod solver;
 pub mod supply;
 pub mod surfaces;
+mod worn_heights;
 
 pub use bearing::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
@@ -66,3 +67,4 @@ pub use journal_state::JournalState;
 pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;
+pub use worn_heights::WornHeights;
