@@ -163,6 +163,9 @@ mod tests {
         assert_eq!(WornHeights::of(0.0, 1e-6).rms, 0.0);
         // The smallest wear is found, too.
         let worn = WornHeights::of(1.0, 1e-200);
-        assert!((F_1.at(worn.level).0 / 1e-200 - 1.0).abs() < 1e-9, "{worn:?}");
+        assert!(
+            (F_1.at(worn.level).0 / 1e-200 - 1.0).abs() < 1e-9,
+            "{worn:?}"
+        );
     }
 }
