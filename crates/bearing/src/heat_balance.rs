@@ -212,6 +212,9 @@ impl JointBalance {
             temperature: self.temperature,
             imbalance,
         });
+        if !imbalance.is_finite() {
+            return true;
+        }
         let [steepest, flattest] = Self::SLOPES;
         let slope = match self.trials.as_slice() {
             [.., a, b] if a.temperature != b.temperature => {

@@ -160,11 +160,17 @@ pub(super) fn bearing_cycle(
     let mut watch = CycleWatch::new(duty, fields);
     let mut film = film_of(case, settings)?;
     let heat = FieldHeat::of(case);
-    let (mut orbit, warmth) =
-        orbit_of((case, duty), start, film.as_mut(), heat.as_ref(), &mut |p, f, s| {
-            watch.see(p, f, s, progress)
-        })?;
-    let last = orbit.points.last().filter(|_| orbit.outcome == Outcome::Converged);
+    let (mut orbit, warmth) = orbit_of(
+        (case, duty),
+        start,
+        film.as_mut(),
+        heat.as_ref(),
+        &mut |p, f, s| watch.see(p, f, s, progress),
+    )?;
+    let last = orbit
+        .points
+        .last()
+        .filter(|_| orbit.outcome == Outcome::Converged);
     let end = last.map(|point| WarmStart {
         state: point.state,
         content: film.history(),

@@ -126,7 +126,9 @@ pub(super) fn note(ran: &RanIn, header: &mut Header) {
         RunningInEnd::TimeOver => return,
         RunningInEnd::Settled | RunningInEnd::Faded => {
             let message = if ran.end == RunningInEnd::Settled {
-                format!("the shell has run in after {after:.3} h: the map of its wear no longer changes")
+                format!(
+                    "the shell has run in after {after:.3} h: the map of its wear no longer changes"
+                )
             } else {
                 format!(
                     "the shell has run in after {after:.3} h: its wear has faded to settled_below of the \
