@@ -251,10 +251,11 @@ impl<W: Write + Seek> Layout<W> {
     fn running_in(&mut self, place: Node, ran: &RanIn) -> io::Result<()> {
         let group = self.file.group(place, "running_in")?;
         self.file.set(group, "end", ran.end.name());
-        self.columns(group, running_in::columns(ran))?;
-        if ran.depth.is_empty() {
+        // A first cycle that was not solved leaves neither steps nor cells.
+        if ran.steps.is_empty() {
             return Ok(());
         }
+        self.columns(group, running_in::columns(ran))?;
         let shell = self.file.group(group, "shell")?;
         let depth: [(&str, &str, &[f64]); 1] = [("worn_depth", "m", &ran.depth)];
         self.surface(shell, &ran.angles, &ran.axial, &depth)

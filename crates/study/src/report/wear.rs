@@ -275,20 +275,23 @@ fn profiles(
         });
         Chart {
             x_title: x_title.to_owned(),
-            y_title: "Outwards from the nominal bore [µm]".to_owned(),
+            y_title: "Bore, outwards [µm]".to_owned(),
             y_range: None,
             series: series.to_vec(),
         }
         .data(detail)
     };
+    // The deepest place in the middle, half a turn to both sides.
+    let middle = degrees_around(ran.angles[around]);
+    let unrolled = |i: usize| {
+        let apart = degrees_around(ran.angles[i]) - middle;
+        middle + (apart + 180.0).rem_euclid(360.0) - 180.0
+    };
     let mut order: Vec<usize> = (0..ran.angles.len()).collect();
-    order.sort_by(|a, b| degrees_around(ran.angles[*a]).total_cmp(&degrees_around(ran.angles[*b])));
+    order.sort_by(|a, b| unrolled(*a).total_cmp(&unrolled(*b)));
     charts["worn-around"] = chart(
         "Bearing angle [°]",
-        order
-            .iter()
-            .map(|i| degrees_around(ran.angles[*i]))
-            .collect(),
+        order.iter().map(|i| unrolled(*i)).collect(),
         order.iter().map(|i| before(*i, along)).collect(),
         order.iter().map(|i| after(*i, along)).collect(),
     );
