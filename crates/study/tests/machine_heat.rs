@@ -23,12 +23,12 @@ heat_capacity = "2100 J/(kg.K)"
 [heat]
 model = "balance"
 supply_temperature = "80 degC"
-conductance = "2 W/K"
+conductance = "0.2 W/K"
 surroundings_temperature = "30 degC"
 
 [heat.expansion]
 journal = "11.5e-6 1/K"
-housing = "23e-6 1/K"
+housing = "14e-6 1/K"
 
 [film]
 model = "short-bearing"
@@ -112,13 +112,13 @@ fn a_bearing_of_an_engine_is_as_warm_as_alone() {
         let heat = own.heat.as_ref().unwrap();
         let single = alone.header.heat.as_ref().unwrap();
         assert!(
-            heat.effective_temperature > 273.15 + 82.0,
+            heat.effective_temperature > 273.15 + 80.2,
             "{name}: {heat:?}"
         );
         let apart = heat.effective_temperature - single.effective_temperature;
         assert!(apart.abs() < 1e-6, "{name}: {heat:?} {single:?}");
         assert!((heat.radial_clearance / single.radial_clearance - 1.0).abs() < 1e-9);
-        // Aluminium grows away from steel.
+        // The housing grows more than the journal.
         assert!(heat.radial_clearance > heat.given_radial_clearance);
         assert_eq!(own.cycle.bearing.radial_clearance, heat.radial_clearance);
         let listed = keys["bearings"].as_array().unwrap();
@@ -161,7 +161,7 @@ diameter = "28 mm"
 
 [[shaft.unbalance]]
 position = "60 mm"
-moment = "3 kg.mm"
+moment = "0.5 kg.mm"
 
 [[bearing]]
 diameter = "28 mm"
@@ -194,10 +194,10 @@ fn the_films_of_an_elastic_shaft_are_balanced_together() {
         let rise = heat.effective_temperature - heat.supply_temperature;
         // rho c Q 2 (T - T_in) + k (T - T_surroundings)
         let carried = 850.0 * 2100.0 * flow * 2.0 * rise;
-        let conducted = 2.0 * (heat.effective_temperature - 303.15);
+        let conducted = 0.2 * (heat.effective_temperature - 303.15);
         assert!((heat.conducted / conducted - 1.0).abs() < 1e-9);
         // The temperatures stand to 0.05 K; a warmer film makes less heat by about as much again.
-        let bar = (850.0 * 2100.0 * flow * 2.0 + 2.0) * 0.05 * 2.0;
+        let bar = (850.0 * 2100.0 * flow * 2.0 + 0.2) * 0.05 * 2.0;
         let left = lost - carried - conducted;
         assert!(left.abs() < bar, "{lost} {carried} {conducted}");
         assert!(lost > 0.0 && heat.trials.len() > 2, "{heat:?}");
@@ -210,7 +210,7 @@ fn the_films_of_an_elastic_shaft_are_balanced_together() {
 /// What stays refused says what to do.
 #[test]
 fn a_field_of_temperature_is_refused_for_machines_by_name() {
-    let conduction = "conductance = \"2 W/K\"\nsurroundings_temperature = \"30 degC\"\n";
+    let conduction = "conductance = \"0.2 W/K\"\nsurroundings_temperature = \"30 degC\"\n";
     let field = OIL.replace("model = \"balance\"", "model = \"field\"");
     let field = field.replace(conduction, "");
     let refused = |text: &str| {
@@ -227,7 +227,7 @@ fn a_field_of_temperature_is_refused_for_machines_by_name() {
     );
     let told = refused(&shell);
     assert!(told.contains("heat.expansion.shell of a machine"), "{told}");
-    let tight = OIL.replace("23e-6", "0.5e-6").replace("11.5e-6", "23e-6");
+    let tight = OIL.replace("14e-6", "0.5e-6").replace("11.5e-6", "23e-6");
     let told = refused(&format!("{ENGINE}{tight}"));
     assert!(
         told.contains("no clearance at the supply temperature"),

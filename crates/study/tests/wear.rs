@@ -147,14 +147,17 @@ fn without_wear_in_the_study_there_is_none() {
 fn running_in_lasts_for_the_hours_given() {
     let hours = |roughness: &str| {
         BIG_END.replace("[48, 8]", "[32, 4]")
-            + "[wear.running_in]\nhours = \"3 min\"\nsettled_below = 0.0\nstep_depth = 0.4\n"
+            + "[wear.running_in]\nhours = \"2 h\"\nsettled_below = 0.0\nstep_depth = 0.4\n"
             + roughness
     };
     let results = solved(&hours(""));
     let found = cycle(&results);
     let ran = found.running_in.as_ref().unwrap();
     assert_eq!(ran.end.name(), "time-over");
-    assert_eq!((ran.time, ran.steps.last().unwrap().time), (180.0, 180.0));
+    assert_eq!(
+        (ran.time, ran.steps.last().unwrap().time),
+        (7200.0, 7200.0)
+    );
     assert!(ran.steps.len() > 2, "{:?}", ran.steps);
     assert!(results.header.status == sommerfeld_study::Outcome::Converged);
     for pair in ran.steps.windows(2) {
