@@ -48,6 +48,7 @@ pub mod solver;
 pub mod spectral;
 pub mod supply;
 pub mod surfaces;
+mod worn_heights;
 
 pub use bearing::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
@@ -68,3 +69,4 @@ pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;
 pub use spectral::OnlineFilm;
+pub use worn_heights::WornHeights;

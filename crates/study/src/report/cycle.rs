@@ -10,7 +10,7 @@ use super::page::{
 };
 use super::spark::spark;
 use super::steady::further_cards;
-use super::{contact, cycle_tables, figures, heat, surfaces};
+use super::{contact, cycle_tables, figures, heat, surfaces, wear};
 use crate::limits::Quantity;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use serde_json::{Value, json};
@@ -77,6 +77,7 @@ pub(super) fn part(
         .map(|_| film::part(&cycle.bearing, &instants, detail));
     part.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
     part.sections.extend(contact::section(cycle));
+    part.sections.extend(wear::section(cycle));
     if let Some(fields) = fields {
         part.hole = surfaces::hole_sentence(&cycle.bearing, &fields.on_journal, units);
         // Where speeds share the places of the figures, the sentence stands with each speed.
@@ -102,7 +103,12 @@ pub(super) fn part(
         "charts": charts(cycle, units, detail),
         "film": film::film_data(&cycle.bearing, &instants, units, detail),
         "surfaces": fields
-            .map(|fields| surfaces::surface_data(&cycle.bearing, fields, units, detail)),
+            .map(|fields| {
+                let ran = cycle.running_in.as_ref();
+                let worn = ran.map(|ran| ran.depth.as_slice());
+                let worn = worn.filter(|worn| worn.len() == fields.on_shell.maximum_pressure.len());
+                surfaces::surface_data(&cycle.bearing, fields, worn, (units, detail))
+            }),
     });
     part
 }
@@ -497,5 +503,6 @@ fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
         charts["feed-flows"] = chart(&title, None, flows.collect());
     }
     contact::charts(cycle, units, detail, &mut charts);
+    wear::charts(cycle, detail, &mut charts);
     charts
 }
