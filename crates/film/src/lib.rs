@@ -47,6 +47,7 @@ mod shape_table;
 pub mod solver;
 pub mod supply;
 pub mod surfaces;
+pub mod vogelpohl;
 
 pub use bearing::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
