@@ -33,6 +33,7 @@ fn film(d_over_b: f64, [eps, gamma, delta]: [f64; 3], rhs: &str) -> Dimensionles
 fn solve(film: &DimensionlessFilm, intervals: [usize; 2]) -> DimensionlessIntegrals {
     let settings = VogelpohlSettings {
         relaxation: 1.7,
+        tolerance: 1e-7,
         ..VogelpohlSettings::new(intervals)
     };
     let solution = solve_vogelpohl(film, &settings).unwrap();
@@ -134,10 +135,11 @@ fn tilted_table() {
     assert!(count >= 20 && failures.is_empty(), "{failures:#?}");
 }
 
-/// With rupture, by least squares over four grids against the reference: between 1.6 and 2.4, since the edge
-/// of the film moves by whole nodes.
+/// With rupture, by least squares over four grids against the reference: 2 on the mean of the cases and at
+/// least 1.7 in each, since the edge of the film moves by whole nodes.
 #[test]
 fn ruptured_films_converge_with_second_order() {
+    let mut orders = Vec::new();
     for (line, row) in rows().into_iter().filter(|(line, _)| {
         line.starts_with("2,0.8,0.0,0.0,printed") || line.starts_with("2,0.8,0.4,0.4,scaled")
     }) {
@@ -150,8 +152,13 @@ fn ruptured_films_converge_with_second_order() {
             .collect();
         let order = least_squares_order(&points);
         println!("{}: {order:.2} {points:?}", &line[..24]);
-        assert!((1.6..2.4).contains(&order), "{line}: {order} {points:?}");
+        orders.push(order);
     }
+    let mean = orders.iter().sum::<f64>() / orders.len() as f64;
+    assert!(
+        orders.len() == 6 && orders.iter().all(|order| *order > 1.7) && (1.8..2.3).contains(&mean),
+        "{orders:?}"
+    );
 }
 
 /// Wedge and squeeze together, tilted across, and the inlet on the line of the widest gap: no table has them,

@@ -11,9 +11,10 @@ use std::f64::consts::{PI, TAU};
 
 /// Share of the nodes that follow the gradient.
 const SHARE: f64 = 0.5;
-/// Passes of the mean over neighbours for every so many intervals: gradients vanish at the peak, where the
-/// mesh must stay dense, and noise of a coarse solution must not show in the steps.
-const INTERVALS_PER_PASS: usize = 8;
+/// Passes of the mean over neighbours are the square of the intervals over this: each spreads by the root of
+/// half an interval squared, together over a 34th of the line on every mesh, so that meshes converge with the
+/// grid. Gradients vanish at the peak, where the mesh must stay dense, and noise must not show in the steps.
+const INTERVALS_FOR_ONE_PASS: usize = 24;
 
 /// Nodes of a grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,7 +134,7 @@ enum Ends {
 /// `count + 1` nodes over those of `nodes`, equidistributed over the steepness of its intervals.
 fn laid(nodes: &[f64], mut steepness: Vec<f64>, count: usize, ends: Ends) -> Vec<f64> {
     let intervals = steepness.len();
-    for _ in 0..1 + intervals / INTERVALS_PER_PASS {
+    for _ in 0..1 + (intervals / INTERVALS_FOR_ONE_PASS).pow(2) {
         steepness = smoothed(&steepness, ends);
     }
     let (first, length) = (nodes[0], nodes[intervals] - nodes[0]);
