@@ -9,5 +9,6 @@ pub mod contents;
 pub mod direction;
 pub mod error;
 pub mod spline;
+pub mod superposition;
 
 pub use error::DatabaseError;
