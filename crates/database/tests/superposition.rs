@@ -47,6 +47,11 @@ fn tilted() -> &'static Arc<SuperpositionTable> {
                 eccentricities: [0.15, 0.45],
                 eccentricity_nodes: 5,
                 samples: 20,
+                grid: [96, 24],
+                tilt_nodes: std::env::var("TN").map_or([17, 13], |v| {
+                    let mut i = v.split(',').map(|x| x.parse().unwrap());
+                    [i.next().unwrap(), i.next().unwrap()]
+                }),
                 ..whole
             });
         }
@@ -409,7 +414,6 @@ fn stopped_and_resumed_it_is_the_same() {
         tilt_nodes: [5, 5],
         largest_shares: [0.4, 0.4],
         grid: [48, 16],
-        node_error_target: 0.05,
         samples: 3,
         ..SuperpositionRecipe::tilted(1.5)
     };
