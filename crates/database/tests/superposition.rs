@@ -47,11 +47,7 @@ fn tilted() -> &'static Arc<SuperpositionTable> {
                 eccentricities: [0.15, 0.45],
                 eccentricity_nodes: 5,
                 samples: 20,
-                grid: [96, 24],
-                tilt_nodes: std::env::var("TN").map_or([17, 13], |v| {
-                    let mut i = v.split(',').map(|x| x.parse().unwrap());
-                    [i.next().unwrap(), i.next().unwrap()]
-                }),
+                tilt_nodes: [13, 11],
                 ..whole
             });
         }

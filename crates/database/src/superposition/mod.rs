@@ -102,12 +102,12 @@ impl SuperpositionRecipe {
         Self {
             d_over_b,
             eccentricities: [0.05, 0.95],
-            eccentricity_nodes: 12,
+            eccentricity_nodes: 13,
             largest_shares: [0.95, 0.85],
-            tilt_nodes: [17, 13],
+            tilt_nodes: [15, 11],
             cavitation: Cavitation::Reynolds,
             wedge_inlet: Inlet::Cyclic,
-            grid: [128, 32],
+            grid: [128, 40],
             smallest_gap: 0.02,
             samples: 100,
         }
