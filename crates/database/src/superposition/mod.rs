@@ -10,7 +10,7 @@
 //! lacks Phi_2V and Theta_2V, which a transverse tilt makes. Axes: eccentricity, and the two shares of
 //! [`tilt_box`], all even in artanh of their value, so that they are even in the logarithm of the gap
 //! towards contact. Interpolated by cubic splines with two continuous derivatives: the logarithm of the size of
-//! `(Phi_1, Phi_2, Theta_1, Theta_2)`, of the wedge over eps, and the four over that size.
+//! `(Phi_1, Phi_2, Theta_1, Theta_2)`, the forces of the wedge over eps, and the four over that size.
 //! What it is not: forces of separately cut pressures do not add up to that of the film (tens of percent where
 //! the gap closes, more where it opens), and tilt RATES make no force in this scheme: the tilt is taken to turn
 //! with the line of centres. It is for comparison.
@@ -102,14 +102,14 @@ impl SuperpositionRecipe {
         Self {
             d_over_b,
             eccentricities: [0.05, 0.95],
-            eccentricity_nodes: 13,
+            eccentricity_nodes: 21,
             largest_shares: [0.95, 0.85],
             tilt_nodes: [15, 11],
             cavitation: Cavitation::Reynolds,
             wedge_inlet: Inlet::Cyclic,
             grid: [128, 40],
             smallest_gap: 0.02,
-            samples: 100,
+            samples: 60,
         }
     }
 
