@@ -49,7 +49,7 @@ fn tilted() -> &'static Arc<SuperpositionTable> {
                 eccentricities: [0.15, 0.45],
                 eccentricity_nodes: 5,
                 samples: 10,
-                tilt_nodes: [13, 11],
+                tilt_nodes: [11, 9],
                 ..whole
             });
         }
