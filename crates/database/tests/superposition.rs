@@ -150,7 +150,8 @@ fn tilted_table() {
         );
         count += 1;
         worst = [worst[0].max(off[0]), worst[1].max(off[1])];
-        if off[0].max(off[1]) > 0.005 {
+        // Below it no bar is promised: what it errs is printed.
+        if eps >= table.recipe().smallest_eccentricity && off[0].max(off[1]) > 0.005 {
             failures.push(format!("{row:?}: {off:?}"));
         }
     }

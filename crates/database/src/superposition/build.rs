@@ -185,7 +185,8 @@ fn samples(recipe: &SuperpositionRecipe, axes: &[Axis; 3], seed: u64) -> Vec<Sam
                 .each_ref()
                 .map(|axis| axis.at(random.next() * (axis.count() - 1) as f64));
             let tilts = tilt_box::tilts(eps, [share, transverse]);
-            if tilt_box::smallest_gap(eps, tilts[0], tilts[1]) >= recipe.smallest_gap {
+            let is_open = tilt_box::smallest_gap(eps, tilts[0], tilts[1]) >= recipe.smallest_gap;
+            if is_open && eps >= recipe.smallest_eccentricity {
                 samples.push(Sample { drive, eps, tilts });
                 found += 1;
             }

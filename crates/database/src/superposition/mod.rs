@@ -91,6 +91,9 @@ pub struct SuperpositionRecipe {
     pub grid: [usize; 2],
     /// Smallest relative film thickness of the random states that the error is measured at.
     pub smallest_gap: f64,
+    /// Smallest relative eccentricity of those states. With tilts as large as the eccentricity the wedge
+    /// changes its rupture with their ratio, and the tables err by percents.
+    pub smallest_eccentricity: f64,
     /// Number of random states of each drive.
     pub samples: usize,
 }
@@ -109,6 +112,7 @@ impl SuperpositionRecipe {
             wedge_inlet: Inlet::Cyclic,
             grid: [128, 40],
             smallest_gap: 0.02,
+            smallest_eccentricity: 0.25,
             samples: 60,
         }
     }
@@ -122,6 +126,7 @@ impl SuperpositionRecipe {
             largest_shares: [0.0, 0.0],
             tilt_nodes: [1, 1],
             smallest_gap: 0.01,
+            smallest_eccentricity: 0.02,
             samples: 40,
             ..Self::tilted(d_over_b)
         }
