@@ -105,7 +105,7 @@ impl SuperpositionRecipe {
         Self {
             d_over_b,
             eccentricities: [0.05, 0.95],
-            eccentricity_nodes: 21,
+            eccentricity_nodes: 13,
             largest_shares: [0.95, 0.85],
             tilt_nodes: [15, 11],
             cavitation: Cavitation::Reynolds,
