@@ -57,6 +57,15 @@ pub const MODELS: &[Model] = &[
         doi: None,
     },
     Model {
+        family: "method",
+        name: "vogelpohl-fdm",
+        description: "Finite differences of the pressure times H^1.5 on steps that follow its gradient, \
+                      coarse to fine, point iteration with negative pressures set to 0",
+        reference: "Marsalek, O., Novotny, P., Drapal, L., Pistek, V. (2012): Improvements in \
+                    computational modelling of slide bearings; transform of Vogelpohl, G. (1937)",
+        doi: Some("10.2478/v10138-012-0015-7"),
+    },
+    Model {
         family: "cavitation",
         name: "gumbel",
         description: "Full film solved, pressures below cavitation pressure cut (half Sommerfeld); \

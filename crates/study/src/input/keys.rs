@@ -306,6 +306,8 @@ pub const KEYS: &[Key] = &[
     key("film", Table, Optional, ALL, "How the film is modelled.", ""),
     key("film.model", Choice(&["field", "short-bearing", "mobility", "long-bearing"], &["database", "online"]), Default("field"), ALL,
         "field: Reynolds equation on a grid; the others are closed forms, estimates outside their range.", "\"field\""),
+    key("film.method", Choice(&["finite-volume", "vogelpohl-fdm"], &[]), Default("finite-volume"), ALL,
+        "How a dimensionless film is solved. finite-volume: cells and active sets, direct; vogelpohl-fdm: the paper's finite differences of the pressure times H^1.5 on variable steps with point iteration, closure reynolds, for comparison.", "\"finite-volume\""),
     key("film.cavitation", Choice(&["gumbel", "reynolds", "mass-conserving"], &[]), Default("mass-conserving"), ALL,
         "Closure for the ruptured film: cut negative pressures, smooth rupture (Swift-Stieber), or Jakobsson-Floberg-Olsson.", "\"mass-conserving\""),
     key("film.inlet", Choice(&["cyclic", "max-film-line"], &[]), Default("cyclic"), ALL,

@@ -196,6 +196,8 @@ pub enum StoredInstants {
 pub struct FilmSettings {
     /// The model.
     pub model: FilmModel,
+    /// How a dimensionless film is solved.
+    pub method: FilmMethod,
     /// Cells around the circumference and along the axis.
     pub grid: [usize; 2],
     /// Solver of the linear systems.
@@ -236,6 +238,26 @@ impl FilmModel {
     #[must_use]
     pub const fn is_field(self) -> bool {
         matches!(self, Self::Field)
+    }
+}
+
+/// How the Reynolds equation is solved on a grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilmMethod {
+    /// Cells and active sets.
+    FiniteVolume,
+    /// The paper's finite differences with point iteration; of dimensionless films alone.
+    VogelpohlFdm,
+}
+
+impl FilmMethod {
+    /// As in the study file.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FiniteVolume => "finite-volume",
+            Self::VogelpohlFdm => "vogelpohl-fdm",
+        }
     }
 }
 

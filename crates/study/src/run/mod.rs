@@ -15,8 +15,8 @@ mod sweep;
 mod turn;
 
 use crate::input::{
-    BearingCase, Duty, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
-    TiltCondition,
+    BearingCase, Duty, FilmMethod, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study,
+    Subject, TiltCondition,
 };
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
@@ -31,6 +31,7 @@ use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
+use sommerfeld_film::vogelpohl::{VogelpohlSettings, solve_vogelpohl};
 use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
     MobilityFilm, Outcome, ShortBearingFilm,
@@ -437,12 +438,22 @@ fn solve_paper(
     settings: &FilmSettings,
     header: &mut Header,
 ) -> Result<Body, FilmError> {
-    let solution = solve_dimensionless(film, settings.grid)?;
-    note_outcome(solution.outcome, header);
-    header
-        .models
-        .extend(models::find("extrapolation", "richardson"));
-    let integrals = solution.integrals;
+    let (integrals, outcome) = match settings.method {
+        FilmMethod::FiniteVolume => {
+            let solution = solve_dimensionless(film, settings.grid)?;
+            header
+                .models
+                .extend(models::find("extrapolation", "richardson"));
+            (solution.integrals, solution.outcome)
+        }
+        FilmMethod::VogelpohlFdm => {
+            let solution = solve_vogelpohl(film, &VogelpohlSettings::new(settings.grid))?;
+            let method = models::find("method", settings.method.name());
+            header.models.extend(method);
+            (solution.integrals, solution.outcome)
+        }
+    };
+    note_outcome(outcome, header);
     Ok(Body::Dimensionless(DimensionlessResults {
         p_cos: integrals.p_cos,
         p_sin: integrals.p_sin,
