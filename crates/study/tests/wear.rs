@@ -154,10 +154,7 @@ fn running_in_lasts_for_the_hours_given() {
     let found = cycle(&results);
     let ran = found.running_in.as_ref().unwrap();
     assert_eq!(ran.end.name(), "time-over");
-    assert_eq!(
-        (ran.time, ran.steps.last().unwrap().time),
-        (7200.0, 7200.0)
-    );
+    assert_eq!((ran.time, ran.steps.last().unwrap().time), (7200.0, 7200.0));
     assert!(ran.steps.len() > 2, "{:?}", ran.steps);
     assert!(results.header.status == sommerfeld_study::Outcome::Converged);
     for pair in ran.steps.windows(2) {
