@@ -1,6 +1,7 @@
 //! From a study file to results: checked input, the run, tables and the report.
 
 pub mod cases;
+mod film_models;
 pub mod hdf5;
 pub mod input;
 mod key_figures;

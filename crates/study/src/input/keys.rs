@@ -33,7 +33,7 @@ const EVERY: &[Mode] = &[
 const SWEEP: &[Mode] = &[Sweep];
 const PHYSICAL: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle, Engine, Shaft];
 const REFINED: &[Mode] = &[Film, Dimensionless, Equilibrium, Coefficients, LoadCycle];
-const COMPARED: &[Mode] = &[Film, Equilibrium, LoadCycle];
+const COMPARED: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle];
 const OPERATED: &[Mode] = &[Film, Equilibrium, Coefficients];
 const STEADY: &[Mode] = &[Equilibrium, Coefficients];
 const TURNING: &[Mode] = &[Coefficients];
@@ -316,8 +316,8 @@ pub const KEYS: &[Key] = &[
     key("film.linear_solver", Choice(&["auto", "banded"], &["multigrid"]), Default("auto"), ALL, "Solver of the linear systems.", "\"auto\""),
     key("film.relative_error_target", Number(Range::between(1e-6, 0.1, "")), Optional, REFINED,
         "Refine the grid, from half of film.grid on, and extrapolate until the estimated discretisation error of every figure is below this: relative to the force or moment vector, the flow, a radian, else to the figure. Load cycles refine their time step too and extrapolate nothing. At most 512 x 128 cells (load cycles 256 x 64 and a quarter of crank_step) or 8 times film.grid in each direction; a figure that misses the target there is named in the messages with its error, and the run still counts as converged.", "1e-3"),
-    key("film.compare", Words(&["plain"]), Optional, COMPARED,
-        "Runs the study once more and reports the difference. plain: smooth surfaces, a rigid shell, an oil of constant viscosity and density, one temperature; that of the heat balance with its clearance, of the supply where the temperature is a field, else oil.temperature.", "[\"plain\"]"),
+    key("film.compare", Words(&["plain", "field", "short-bearing", "mobility", "long-bearing"]), Optional, COMPARED,
+        "Runs the study once more with each of these and reports the differences. plain: smooth surfaces, a rigid shell, an oil of constant viscosity and density, one temperature; that of the heat balance with its clearance, of the supply where the temperature is a field, else oil.temperature. The others are film models, as under model: one that cannot do what the study asks is named with the reason.", "[\"plain\"], [\"field\", \"short-bearing\"]"),
 
     key("operation", Table, Required, &[Film, Dimensionless, Equilibrium, Coefficients], "How the bearing runs.", ""),
     key("operation.speed", Quantity(Dimension::AngularSpeed, SPEED), Required, OPERATED, "Angular speed of the journal, relative to the frame of the loads.", "\"2000 rpm\""),

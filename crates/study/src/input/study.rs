@@ -192,7 +192,7 @@ pub enum StoredInstants {
 }
 
 /// How the film is modelled.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FilmSettings {
     /// The model.
     pub model: FilmModel,
@@ -203,8 +203,33 @@ pub struct FilmSettings {
     /// Estimated error below which the grid is refined, over the scale of each figure; `None` takes
     /// the grid as it is.
     pub relative_error_target: Option<f64>,
-    /// The study is run once more with plain surfaces and oil, to compare.
-    pub compare_plain: bool,
+    /// What the study is run once more with, to compare.
+    pub compare: Vec<Compared>,
+}
+
+impl FilmSettings {
+    /// The study is run once more with plain surfaces and oil.
+    #[must_use]
+    pub fn compares_plain(&self) -> bool {
+        self.compare.contains(&Compared::Plain)
+    }
+
+    /// Film models beside the study's own that it is run with once more.
+    pub fn compared_models(&self) -> impl Iterator<Item = FilmModel> {
+        self.compare.iter().filter_map(|compared| match compared {
+            Compared::Plain => None,
+            Compared::Model(model) => Some(*model),
+        })
+    }
+}
+
+/// What a study is run once more with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Compared {
+    /// Smooth surfaces, a rigid shell, an oil of constant viscosity and density.
+    Plain,
+    /// Another model of the film.
+    Model(FilmModel),
 }
 
 /// A model of the film.
@@ -221,6 +246,20 @@ pub enum FilmModel {
 }
 
 impl FilmModel {
+    /// Every model.
+    pub const ALL: [Self; 4] = [
+        Self::Field,
+        Self::ShortBearing,
+        Self::Mobility,
+        Self::LongBearing,
+    ];
+
+    /// The model of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|model| model.name() == name)
+    }
+
     /// As in the study file.
     #[must_use]
     pub const fn name(self) -> &'static str {

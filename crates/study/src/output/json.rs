@@ -11,8 +11,8 @@ use crate::oil_holes::{OilHole, oil_holes};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{
     Body, CycleResults, DimensionlessResults, Dynamics, Header, HeatResults, InstantCoefficients,
-    PROGRAM, PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees, film_parameter, magnitude,
-    specific_load, stability_name, status_name,
+    ModelEnd, ModelRun, PROGRAM, PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees,
+    film_parameter, magnitude, specific_load, stability_name, status_name,
 };
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
@@ -60,8 +60,8 @@ pub fn summary(results: &Results) -> Value {
     if let Some(heat) = &results.header.heat {
         object.extend(heat_keys(heat));
     }
-    if let Some(plain) = &results.header.plain {
-        object.insert("comparison".into(), json!({ "plain": plain_keys(plain) }));
+    if let Some(compared) = comparison(&results.header, &object) {
+        object.insert("comparison".into(), compared);
     }
     if let Some(grid) = results.header.grid {
         object.insert("grid".into(), json!(grid));
@@ -119,26 +119,74 @@ const COMPARED: &[&str] = &[
     "relative_eccentricity",
     "mean_relative_eccentricity",
     "friction_coefficient",
+    "stiffness_n_m",
+    "damping_n_s_m",
 ];
+
+/// The study run once more with plain surfaces and oil, and with other film models; `own` holds the
+/// study's own figures.
+fn comparison(header: &Header, own: &Map<String, Value>) -> Option<Value> {
+    let mut all = Map::new();
+    if let Some(plain) = &header.plain {
+        all.insert("plain".into(), plain_keys(plain));
+    }
+    if let Some(compared) = &header.comparison {
+        all.insert("own_model".into(), json!(compared.own_model));
+        all.insert("own_wall_time_s".into(), json!(compared.own_wall_time));
+        let runs = compared.runs.iter();
+        all.extend(runs.map(|run| (run.model.to_owned(), model_keys(run, own))));
+    }
+    (!all.is_empty()).then_some(Value::Object(all))
+}
 
 /// The plain run under the keys of the study's own figures.
 fn plain_keys(plain: &PlainRun) -> Value {
     let mut keys = json!({
         "status": status_name(plain.status),
         "temperature_degc": plain.temperature - 273.15,
+        "wall_time_s": plain.wall_time,
     });
-    let found = match &plain.body {
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(compared_keys(plain.body.as_ref()));
+    }
+    keys
+}
+
+/// The run of another model under the keys of the study's own figures, and how far it is from them.
+fn model_keys(run: &ModelRun, own: &Map<String, Value>) -> Value {
+    let mut keys = json!({
+        "status": run.end.name(),
+        "wall_time_s": run.wall_time,
+        "notes": run.notes,
+    });
+    if let ModelEnd::Refused(reason) = &run.end {
+        keys["reason"] = json!(reason);
+    }
+    let found = compared_keys(run.body.as_ref());
+    let change = |(key, value): (&String, &Value)| {
+        let share = value.as_f64()? / own.get(key)?.as_f64()? - 1.0;
+        Some((key.clone(), json!(100.0 * share)))
+    };
+    let changes: Map<String, Value> = found.iter().filter_map(change).collect();
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(found);
+        if !changes.is_empty() {
+            keys.insert("difference_percent".into(), Value::Object(changes));
+        }
+    }
+    keys
+}
+
+fn compared_keys(body: Option<&Body>) -> Map<String, Value> {
+    let found = match body {
         Some(Body::Steady(steady)) => as_map(steady_keys(steady)),
         Some(Body::LoadCycle(cycle)) => as_map(cycle_keys(cycle)),
         _ => Map::new(),
     };
-    if let Value::Object(keys) = &mut keys {
-        let compared = found
-            .into_iter()
-            .filter(|(key, _)| COMPARED.contains(&key.as_str()));
-        keys.extend(compared);
-    }
-    keys
+    let compared = found.into_iter();
+    compared
+        .filter(|(key, _)| COMPARED.contains(&key.as_str()))
+        .collect()
 }
 
 /// What asperities carry and lose; `boundary` and `total` are powers, W.

@@ -10,7 +10,7 @@ use super::page::{
 };
 use super::spark::spark;
 use super::steady::further_cards;
-use super::{contact, cycle_tables, figures, heat, surfaces};
+use super::{compare_models, contact, cycle_tables, figures, heat, surfaces};
 use crate::limits::Quantity;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use serde_json::{Value, json};
@@ -76,6 +76,7 @@ pub(super) fn part(
         .first()
         .map(|_| film::part(&cycle.bearing, &instants, detail));
     part.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
+    part.sections.extend(compare_models::section(header));
     part.sections.extend(contact::section(cycle));
     if let Some(fields) = fields {
         part.hole = surfaces::hole_sentence(&cycle.bearing, &fields.on_journal, units);
@@ -99,7 +100,7 @@ pub(super) fn part(
     part.data = json!({
         "units": figures::unit_symbols(units),
         "cycle": figures::cycle_data(header, cycle, units, detail),
-        "charts": charts(cycle, units, detail),
+        "charts": charts(header, cycle, units, detail),
         "film": film::film_data(&cycle.bearing, &instants, units, detail),
         "surfaces": fields
             .map(|fields| surfaces::surface_data(&cycle.bearing, fields, units, detail)),
@@ -445,7 +446,7 @@ fn has_feed_flows(cycle: &CycleResults) -> bool {
 }
 
 /// Figures that need no drawing of their own, by their kind.
-fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
+fn charts(header: &Header, cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
     let points = &cycle.orbit.points;
     let kept = figures::thinned(points.len(), detail.curve_points);
     let over = |value: &dyn Fn(usize) -> f64| kept.iter().map(|&i| value(i)).collect::<Vec<_>>();
@@ -497,5 +498,6 @@ fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
         charts["feed-flows"] = chart(&title, None, flows.collect());
     }
     contact::charts(cycle, units, detail, &mut charts);
+    compare_models::charts(header, cycle, units, detail, &mut charts);
     charts
 }

@@ -3,7 +3,7 @@
 use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
-use super::{compare, contact, dynamics, heat};
+use super::{compare, compare_models, contact, dynamics, heat};
 use crate::limits::Quantity;
 use crate::oil_holes::oil_holes;
 use crate::regime::FlowRegime;
@@ -52,8 +52,12 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
     tables.extend(contact::cycle_table(cycle, units));
     tables.extend(heat::table(header, lost, units));
     let own = compare::cycle_figures(cycle, units);
-    if let Some(table) = compare::table(header, own, units) {
-        tables.insert(1, table);
+    let compared = [
+        compare::table(header, own, units),
+        compare_models::cycle_table(header, cycle, units),
+    ];
+    for (at, table) in compared.into_iter().flatten().enumerate() {
+        tables.insert(1 + at, table);
     }
     tables.extend(feeds(cycle, units));
     tables.extend(oil_hole_rows(cycle, units));

@@ -6,6 +6,7 @@
 
 mod chart;
 mod compare;
+mod compare_models;
 mod contact;
 mod cycle;
 mod cycle_tables;

@@ -14,9 +14,9 @@ mod steady;
 mod sweep;
 mod turn;
 
+use crate::film_models::stays_aligned;
 use crate::input::{
     BearingCase, Duty, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
-    TiltCondition,
 };
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
@@ -29,7 +29,6 @@ use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
-use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
@@ -214,23 +213,23 @@ fn solve_into(
         Subject::Bearing(_) | Subject::Dimensionless(_) => {}
     }
     let start = Instant::now();
-    // A run that is compared leaves the second part of the bar to the other one.
-    let share = if study.film.compare_plain { 0.6 } else { 1.0 };
+    // A run that is compared leaves a part of the bar to each of the others.
+    let others = study.film.compare.len();
+    let share = 0.6 / (0.6 + 0.4 * others as f64);
+    let mut is_stopped = false;
     let mut of_share = |event: ProgressEvent| {
-        progress(ProgressEvent {
+        let answer = progress(ProgressEvent {
             done: share * event.done,
             ..event
-        })
+        });
+        is_stopped |= answer.is_break();
+        answer
     };
     let mut results = solve_accurately(study, options, spool, &mut of_share)?;
-    if study.film.compare_plain {
-        compare::with_plain(study, &mut results, &mut |event| {
-            progress(ProgressEvent {
-                label: format!("plain, {}", event.label),
-                done: share + (1.0 - share) * event.done,
-                ..event
-            })
-        });
+    if others > 0 {
+        let own_time = start.elapsed().as_secs_f64();
+        let bar = compare::Bar::new(share, others, is_stopped, progress);
+        compare::with_others(study, &mut results, own_time, bar);
     }
     results.header.wall_time = start.elapsed().as_secs_f64();
     finish_results(study, &mut results);
@@ -351,6 +350,7 @@ fn header(study: &Study) -> Header {
         limits: Vec::new(),
         heat: None,
         plain: None,
+        comparison: None,
     }
 }
 
@@ -373,15 +373,6 @@ fn models_of(study: &Study) -> Vec<Model> {
         }
     }
     used
-}
-
-/// Whether the journal cannot tilt in this duty.
-fn stays_aligned(duty: &Duty) -> bool {
-    match duty {
-        Duty::State(state) => state.tilt == [0.0; 2] && state.tilt_rate == [0.0; 2],
-        Duty::Load(load) => load.tilt == TiltCondition::Fixed([0.0; 2]),
-        Duty::Cycle(duty) => duty.cycle.tilt == CycleTilt::Aligned,
-    }
 }
 
 /// The film model that the study names.

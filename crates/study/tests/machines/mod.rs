@@ -155,7 +155,7 @@ pub fn study(
             grid,
             linear_solver: LinearSolver::Auto,
             relative_error_target: None,
-            compare_plain: false,
+            compare: Vec::new(),
         },
         rotor: Rotor::default(),
         limits,

@@ -25,7 +25,7 @@ use super::keys::KEYS;
 use super::read::{Entries, Entry, MOST_ERRORS, Reading};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
-    Analysis, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
+    Analysis, Compared, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
 use super::values::{Value, default_value, not_built};
 use grooves::DrillingKeys;
@@ -307,7 +307,7 @@ impl Checker<'_> {
                 let what = format!("film.compare of the analysis {}", self.mode.name());
                 let error = not_built(note, &what);
                 self.errors
-                    .push(error.allowing("film, equilibrium, load-cycle"));
+                    .push(error.allowing("film, equilibrium, coefficients, load-cycle"));
             } else if self.mode.is_machine() && key.path == "film.relative_error_target" {
                 let what = format!("an error target of the analysis {}", self.mode.name());
                 let error = not_built(note, &what);
@@ -411,25 +411,23 @@ impl Checker<'_> {
     }
 
     fn film_model(&self) -> Option<FilmModel> {
-        match self.text("film.model")?.as_str() {
-            "field" => Some(FilmModel::Field),
-            "short-bearing" => Some(FilmModel::ShortBearing),
-            "mobility" => Some(FilmModel::Mobility),
-            "long-bearing" => Some(FilmModel::LongBearing),
-            _ => None,
-        }
+        FilmModel::from_name(&self.text("film.model")?)
     }
 
     fn film_settings(&mut self) -> Option<FilmSettings> {
         let model = self.film_model()?;
+        let compare = self.compared(model);
         if !model.is_field() {
             for path in [
                 "film.grid",
                 "film.linear_solver",
                 "film.relative_error_target",
-                "film.compare",
                 "output.fields",
             ] {
+                let compares_field = compare.contains(&Compared::Model(FilmModel::Field));
+                if compares_field && path == "film.grid" {
+                    continue;
+                }
                 if let Some(entry) = self.entry(path) {
                     let message = format!("`{path}` is not used by the model {}", model.name());
                     let note = self.reading.error(&entry.key_span, message).of_key(path);
@@ -452,9 +450,36 @@ impl Checker<'_> {
             grid,
             linear_solver,
             relative_error_target: self.number("film.relative_error_target"),
-            compare_plain: model.is_field()
-                && matches!(self.value("film.compare"), Some(Value::Words(words)) if words.iter().any(|word| word == "plain")),
+            compare,
         })
+    }
+
+    /// What the study is run once more with; what would compare it with itself is left out, and said.
+    fn compared(&mut self, own: FilmModel) -> Vec<Compared> {
+        const PATH: &str = "film.compare";
+        let Some(Value::Words(words)) = self.value(PATH) else {
+            return Vec::new();
+        };
+        let mut compare = Vec::new();
+        for word in &words {
+            let compared = FilmModel::from_name(word).map_or(Compared::Plain, Compared::Model);
+            let itself = match compared {
+                Compared::Plain if !own.is_field() => format!(
+                    "\"plain\" compares nothing: surfaces and oil of the model {} are plain",
+                    own.name()
+                ),
+                Compared::Model(model) if model == own => {
+                    format!("\"{word}\" compares nothing: it is the study's own film model")
+                }
+                _ => {
+                    compare.push(compared);
+                    continue;
+                }
+            };
+            let note = self.error_at(PATH, itself);
+            self.warnings.push(note);
+        }
+        compare
     }
 
     /// Refuses a grid whose direct solution does not fit into the memory of usual machines: it is
