@@ -88,7 +88,10 @@ fn is_unfinished(results: &Results, verify: bool) -> bool {
         Body::Machine(machine) => machine.missing() > 0,
         _ => {
             let header = &results.header;
-            header.status != Outcome::Converged || (verify && header.error.is_none())
+            let comparison = header.comparison.as_ref();
+            header.status != Outcome::Converged
+                || (verify && header.error.is_none())
+                || comparison.is_some_and(|comparison| comparison.is_unfinished())
         }
     }
 }

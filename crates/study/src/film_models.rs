@@ -7,7 +7,7 @@
 use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, TiltCondition};
 use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::{Bearing, Cavitation, Elasticity, FilmShear, Finish, Inlet};
-use sommerfeld_oil::{CompressionLaw, PressureLaw, ShearThinning};
+use sommerfeld_oil::{CompressionLaw, Lubricant, PressureLaw, ShearThinning};
 
 /// Why a model cannot do what a case asks; `None` where it can.
 pub(crate) fn refusal(
@@ -21,7 +21,23 @@ pub(crate) fn refusal(
     if !stays_aligned(&case.duty) {
         return Some("it has no tilt".to_owned());
     }
+    if !model.overlooks_feeds() && !case.bearing.feeds.is_empty() {
+        return Some(
+            "it has no grooves and holes; film.feeds = \"left-out\" leaves them out of every model"
+                .to_owned(),
+        );
+    }
     not_plain(&case.bearing).map(str::to_owned)
+}
+
+/// The oil as it is at ambient pressure and low shear, at every temperature.
+pub(crate) fn at_ambient(oil: &Lubricant) -> Lubricant {
+    Lubricant {
+        viscosity_pressure: PressureLaw::None,
+        shear_thinning: ShearThinning::None,
+        density_pressure: CompressionLaw::None,
+        ..oil.clone()
+    }
 }
 
 /// What of a bearing only the film on a grid can follow.

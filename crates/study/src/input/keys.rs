@@ -300,8 +300,10 @@ pub const KEYS: &[Key] = &[
     key("heat.expansion.shell.interference", Quantity(Dimension::Length, Range::between(0.0, 10.0, "mm")), Required, PHYSICAL, "Diametral interference at reference_temperature: outer diameter of the free shell minus inner diameter of the free housing.", "\"40 um\" to \"100 um\""),
 
     key("film", Table, Optional, ALL, "How the film is modelled.", ""),
-    key("film.model", Choice(&["field", "short-bearing", "mobility", "long-bearing"], &["database", "online"]), Default("field"), ALL,
-        "field: Reynolds equation on a grid; the others are closed forms, estimates outside their range.", "\"field\""),
+    key("film.model", Choice(&["field", "online", "short-bearing", "mobility", "long-bearing"], &["database"]), Default("field"), ALL,
+        "field: Reynolds equation on a grid; online: the film of a plain aligned bearing without feeds, solved in microseconds with the closure gumbel; the others are closed forms, estimates outside their range.", "\"field\""),
+    key("film.feeds", Choice(&["used", "left-out"], &[]), Default("used"), PHYSICAL,
+        "left-out: the film is that of the bearings without their grooves and holes, for film models that have none.", "\"used\""),
     key("film.cavitation", Choice(&["gumbel", "reynolds", "mass-conserving"], &[]), Default("mass-conserving"), ALL,
         "Closure for the ruptured film: cut negative pressures, smooth rupture (Swift-Stieber), or Jakobsson-Floberg-Olsson.", "\"mass-conserving\""),
     key("film.inlet", Choice(&["cyclic", "max-film-line"], &[]), Default("cyclic"), ALL,
@@ -316,8 +318,8 @@ pub const KEYS: &[Key] = &[
     key("film.linear_solver", Choice(&["auto", "banded"], &["multigrid"]), Default("auto"), ALL, "Solver of the linear systems.", "\"auto\""),
     key("film.relative_error_target", Number(Range::between(1e-6, 0.1, "")), Optional, REFINED,
         "Refine the grid, from half of film.grid on, and extrapolate until the estimated discretisation error of every figure is below this: relative to the force or moment vector, the flow, a radian, else to the figure. Load cycles refine their time step too and extrapolate nothing. At most 512 x 128 cells (load cycles 256 x 64 and a quarter of crank_step) or 8 times film.grid in each direction; a figure that misses the target there is named in the messages with its error, and the run still counts as converged.", "1e-3"),
-    key("film.compare", Words(&["plain", "field", "short-bearing", "mobility", "long-bearing"]), Optional, COMPARED,
-        "Runs the study once more with each of these and reports the differences. plain: smooth surfaces, a rigid shell, an oil of constant viscosity and density, one temperature; that of the heat balance with its clearance, of the supply where the temperature is a field, else oil.temperature. The others are film models, as under model: one that cannot do what the study asks is named with the reason.", "[\"plain\"], [\"field\", \"short-bearing\"]"),
+    key("film.compare", Words(&["plain", "field", "online", "short-bearing", "mobility", "long-bearing"]), Optional, COMPARED,
+        "Runs the study once more with each of these and reports the differences. plain: smooth surfaces, a rigid shell, an oil of constant viscosity and density, one temperature; that of the heat balance with its clearance, of the supply where the temperature is a field, else oil.temperature. The others are film models, as under model: one that cannot do what the study asks is named with the reason.", "[\"plain\", \"short-bearing\"]"),
 
     key("operation", Table, Required, &[Film, Dimensionless, Equilibrium, Coefficients], "How the bearing runs.", ""),
     key("operation.speed", Quantity(Dimension::AngularSpeed, SPEED), Required, OPERATED, "Angular speed of the journal, relative to the frame of the loads.", "\"2000 rpm\""),

@@ -44,7 +44,10 @@ impl Study {
     pub fn bearing_case(&self) -> Option<&BearingCase> {
         match &self.subject {
             Subject::Bearing(case) => Some(case),
-            Subject::Dimensionless(_) | Subject::Sweep(_) | Subject::Machine(_) => None,
+            Subject::Dimensionless(_)
+            | Subject::Sweep(_)
+            | Subject::Machine(_)
+            | Subject::Database(_) => None,
         }
     }
 }
@@ -64,6 +67,8 @@ pub enum Analysis {
     Engine,
     /// Every bearing of a shaft with given loads.
     Shaft,
+    /// Films solved before, stored to be looked up.
+    Database,
     /// One of these for each of many cases.
     Sweep,
 }
@@ -79,6 +84,7 @@ impl Analysis {
             Self::LoadCycle => "load-cycle",
             Self::Engine => "engine",
             Self::Shaft => "shaft",
+            Self::Database => "database",
             Self::Sweep => "sweep",
         }
     }
@@ -243,15 +249,18 @@ pub enum FilmModel {
     Mobility,
     /// Closed form of the infinitely long bearing (Sommerfeld).
     LongBearing,
+    /// Solved on line in shapes across the width, without a grid.
+    Online,
 }
 
 impl FilmModel {
     /// Every model.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::Field,
         Self::ShortBearing,
         Self::Mobility,
         Self::LongBearing,
+        Self::Online,
     ];
 
     /// The model of this name.
@@ -268,6 +277,7 @@ impl FilmModel {
             Self::ShortBearing => "short-bearing",
             Self::Mobility => "mobility",
             Self::LongBearing => "long-bearing",
+            Self::Online => "online",
         }
     }
 
@@ -275,6 +285,16 @@ impl FilmModel {
     #[must_use]
     pub const fn is_field(self) -> bool {
         matches!(self, Self::Field)
+    }
+
+    /// It takes a bearing with grooves and holes and does not use them: an estimate of closed form. The
+    /// others that have none refuse them.
+    #[must_use]
+    pub const fn overlooks_feeds(self) -> bool {
+        matches!(
+            self,
+            Self::ShortBearing | Self::Mobility | Self::LongBearing
+        )
     }
 }
 

@@ -107,7 +107,7 @@ pub fn write(
             file.cycle(root, cycle, stored)?;
         }
         Body::Machine(machine) => file.machine(machine)?,
-        Body::Dimensionless(_) | Body::Sweep(_) => {}
+        Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => {}
     }
     file.file.finish()?.flush()
 }

@@ -461,6 +461,7 @@ fn analysis_in_words(analysis: &str) -> String {
         "load-cycle" => "Journal orbit over a load cycle".to_owned(),
         "engine" => "Engine: every bearing over the working cycle".to_owned(),
         "shaft" => "Shaft: every bearing over its cycle".to_owned(),
+        "database" => "Database of films".to_owned(),
         "sweep" => "Sweep over a base study".to_owned(),
         other => other.to_owned(),
     }

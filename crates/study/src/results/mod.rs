@@ -472,7 +472,7 @@ impl Results {
                 let worst = machine.largest(|bearing| value(bearing).map(|found| sign * found));
                 worst.map(|(_, _, found)| sign * found)
             }
-            Body::Dimensionless(_) | Body::Sweep(_) => None,
+            Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => None,
         }
     }
 }

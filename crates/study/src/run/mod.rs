@@ -14,7 +14,7 @@ mod steady;
 mod sweep;
 mod turn;
 
-use crate::film_models::stays_aligned;
+use crate::film_models::{at_ambient, stays_aligned};
 use crate::input::{
     BearingCase, Duty, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
 };
@@ -32,7 +32,7 @@ use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
     Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
-    MobilityFilm, Outcome, ShortBearingFilm,
+    MobilityFilm, OnlineFilm, Outcome, ShortBearingFilm,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -395,6 +395,10 @@ fn film_of(
         FilmModel::ShortBearing => Box::new(ShortBearingFilm::new(&case.bearing, viscosity)?),
         FilmModel::Mobility => Box::new(MobilityFilm::new(&case.bearing, viscosity)?),
         FilmModel::LongBearing => Box::new(LongBearingFilm::new(&case.bearing, viscosity)?),
+        FilmModel::Online => Box::new(OnlineFilm::aligned(
+            &case.bearing,
+            &at_ambient(&case.lubricant),
+        )?),
     })
 }
 

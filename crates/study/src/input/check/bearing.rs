@@ -255,12 +255,20 @@ impl Checker<'_> {
         }
         let grooves = self.reading.grooves.first().map(|(span, _)| span.clone());
         if let Some(span) = grooves {
-            let message = format!(
-                "the model {} has no grooves: they are not used",
-                model.name()
-            );
-            let note = self.reading.error(&span, message).of_key("bearing.groove");
-            self.warnings.push(note.hinting("use model = \"field\""));
+            let message = format!("the model {} has no grooves and holes", model.name());
+            let refused = self.reading.error(&span, message).of_key("bearing.groove");
+            if model.overlooks_feeds() {
+                let message = format!(
+                    "the model {} has no grooves: they are not used",
+                    model.name()
+                );
+                let note = self.reading.error(&span, message).of_key("bearing.groove");
+                self.warnings.push(note.hinting("use model = \"field\""));
+            } else {
+                self.errors.push(refused.hinting(
+                    "use model = \"field\", or film.feeds = \"left-out\" for the bearing without them",
+                ));
+            }
         }
     }
 }

@@ -58,6 +58,7 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
     };
     checker.report_missing("");
     checker.report_unused("");
+    checker.leave_out_feeds();
     if mode == Mode::Sweep {
         return checker.sweep();
     }
@@ -114,6 +115,7 @@ fn mode(reading: &Reading<'_>) -> Option<Mode> {
         "load-cycle" => Some(Mode::LoadCycle),
         "engine" => Some(Mode::Engine),
         "shaft" => Some(Mode::Shaft),
+        "database" => Some(Mode::Database),
         "sweep" => Some(Mode::Sweep),
         _ => None,
     }
@@ -127,6 +129,7 @@ fn analysis(mode: Mode) -> Analysis {
         Mode::LoadCycle => Analysis::LoadCycle,
         Mode::Engine => Analysis::Engine,
         Mode::Shaft => Analysis::Shaft,
+        Mode::Database => Analysis::Database,
         Mode::Sweep => Analysis::Sweep,
     }
 }
@@ -408,6 +411,26 @@ impl Checker<'_> {
         let are_right = errors.is_empty();
         self.errors.extend(errors);
         are_right
+    }
+
+    /// Takes the grooves and holes out of every bearing, where the study asks for it.
+    fn leave_out_feeds(&mut self) {
+        const PATH: &str = "film.feeds";
+        if self.text(PATH).as_deref() != Some("left-out") {
+            return;
+        }
+        let tables = self.reading.bearings.iter_mut();
+        let lists = tables.map(|table| &mut table.grooves);
+        let mut left_out = 0;
+        for list in lists.chain([&mut self.reading.grooves]) {
+            left_out += list.len();
+            list.clear();
+        }
+        if left_out > 0 {
+            let message = format!("the grooves and holes of the study, {left_out}, are left out");
+            let note = self.error_at(PATH, message);
+            self.warnings.push(note);
+        }
     }
 
     fn film_model(&self) -> Option<FilmModel> {
