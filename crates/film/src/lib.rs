@@ -45,6 +45,7 @@ mod settling;
 pub mod shape;
 mod shape_table;
 pub mod solver;
+pub mod spectral;
 pub mod supply;
 pub mod surfaces;
 
@@ -66,3 +67,4 @@ pub use journal_state::JournalState;
 pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;
+pub use spectral::OnlineFilm;
