@@ -2,6 +2,7 @@
 
 pub mod cases;
 mod film_models;
+pub mod film_tables;
 pub mod hdf5;
 pub mod input;
 mod key_figures;

@@ -5,7 +5,9 @@ use super::heat::HeatPlan;
 use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
 use super::wear::WearPlan;
+use crate::film_tables::StoredFilms;
 use sommerfeld_bearing::LoadCycle;
+use sommerfeld_database::Recipe;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Bearing, JournalState};
 use sommerfeld_oil::Lubricant;
@@ -99,8 +101,17 @@ pub enum Subject {
     Dimensionless(DimensionlessFilm),
     /// An engine or shaft with all its bearings.
     Machine(Box<MachinePlan>),
+    /// A database of films.
+    Database(Box<DatabasePlan>),
     /// Many cases of a base study.
     Sweep(SweepPlan),
+}
+
+/// A database of films that is to be built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DatabasePlan {
+    /// Everything that decides what it holds.
+    pub recipe: Recipe,
 }
 
 /// A bearing with its oil and what it has to do.
@@ -211,6 +222,8 @@ pub struct FilmSettings {
     pub relative_error_target: Option<f64>,
     /// What the study is run once more with, to compare.
     pub compare: Vec<Compared>,
+    /// The databases that the study names.
+    pub databases: Vec<StoredFilms>,
 }
 
 impl FilmSettings {
@@ -251,16 +264,19 @@ pub enum FilmModel {
     LongBearing,
     /// Solved on line in shapes across the width, without a grid.
     Online,
+    /// Looked up in a database of wedge and squeeze solved together.
+    Database,
 }
 
 impl FilmModel {
     /// Every model.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Field,
         Self::ShortBearing,
         Self::Mobility,
         Self::LongBearing,
         Self::Online,
+        Self::Database,
     ];
 
     /// The model of this name.
@@ -278,6 +294,7 @@ impl FilmModel {
             Self::Mobility => "mobility",
             Self::LongBearing => "long-bearing",
             Self::Online => "online",
+            Self::Database => "database",
         }
     }
 
@@ -285,6 +302,12 @@ impl FilmModel {
     #[must_use]
     pub const fn is_field(self) -> bool {
         matches!(self, Self::Field)
+    }
+
+    /// It is looked up in a database.
+    #[must_use]
+    pub const fn is_looked_up(self) -> bool {
+        matches!(self, Self::Database)
     }
 
     /// It takes a bearing with grooves and holes and does not use them: an estimate of closed form. The

@@ -202,6 +202,7 @@ fn own_header(header: &Header, bearing: &BearingResults) -> Header {
         limits,
         heat: None,
         plain: None,
+        databases: Vec::new(),
         comparison: None,
     }
 }

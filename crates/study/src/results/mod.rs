@@ -3,6 +3,7 @@
 pub mod machine;
 
 use crate::cases::SweepResults;
+use crate::film_tables::DatabaseFacts;
 use crate::limits::{Limit, LimitCheck, Quantity, Side};
 use crate::models::Model;
 use machine::{BearingResults, MachineResults};
@@ -63,6 +64,8 @@ pub struct Header {
     pub heat: Option<HeatResults>,
     /// The same study with plain surfaces and oil, where the study asks for it.
     pub plain: Option<Box<PlainRun>>,
+    /// The databases that its films were looked up in.
+    pub databases: Vec<DatabaseFacts>,
     /// The same study with other film models, where the study asks for them.
     pub comparison: Option<Box<Comparison>>,
 }
@@ -195,6 +198,8 @@ pub enum Body {
     Dimensionless(DimensionlessResults),
     /// Every bearing of an engine or shaft.
     Machine(Box<MachineResults>),
+    /// A database of films.
+    Database(Box<DatabaseResults>),
     /// The cases of a sweep.
     Sweep(Box<SweepResults>),
 }

@@ -14,9 +14,9 @@ mod steady;
 mod sweep;
 mod turn;
 
-use crate::film_models::{at_ambient, stays_aligned};
+use crate::film_models::film_of;
 use crate::input::{
-    BearingCase, Duty, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
+    BearingCase, Duty, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
 };
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
@@ -30,10 +30,7 @@ use cycle::solve_cycle;
 use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
-use sommerfeld_film::{
-    Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
-    MobilityFilm, OnlineFilm, Outcome, ShortBearingFilm,
-};
+use sommerfeld_film::{Conditions, FilmError, FilmSummary, JournalState, Outcome};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -350,6 +347,7 @@ fn header(study: &Study) -> Header {
         limits: Vec::new(),
         heat: None,
         plain: None,
+        databases: Vec::new(),
         comparison: None,
     }
 }
@@ -373,33 +371,6 @@ fn models_of(study: &Study) -> Vec<Model> {
         }
     }
     used
-}
-
-/// The film model that the study names.
-fn film_of(
-    case: &BearingCase,
-    settings: &FilmSettings,
-) -> Result<Box<dyn FilmForce + Send>, FilmError> {
-    let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
-    Ok(match settings.model {
-        FilmModel::Field if stays_aligned(&case.duty) => Box::new(FilmSolver::aligned(
-            &case.bearing,
-            &case.lubricant,
-            settings.grid,
-        )?),
-        FilmModel::Field => Box::new(FilmSolver::new(
-            &case.bearing,
-            &case.lubricant,
-            settings.grid,
-        )?),
-        FilmModel::ShortBearing => Box::new(ShortBearingFilm::new(&case.bearing, viscosity)?),
-        FilmModel::Mobility => Box::new(MobilityFilm::new(&case.bearing, viscosity)?),
-        FilmModel::LongBearing => Box::new(LongBearingFilm::new(&case.bearing, viscosity)?),
-        FilmModel::Online => Box::new(OnlineFilm::aligned(
-            &case.bearing,
-            &at_ambient(&case.lubricant),
-        )?),
-    })
 }
 
 /// The summary with the Reynolds number of the film, where its model knows no density.

@@ -156,6 +156,7 @@ pub fn study(
             linear_solver: LinearSolver::Auto,
             relative_error_target: None,
             compare: Vec::new(),
+            databases: Vec::new(),
         },
         rotor: Rotor::default(),
         limits,

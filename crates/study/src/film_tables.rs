@@ -1,0 +1,218 @@
+//! Databases of films that a study names: what each holds, how far it errs, and which of them holds
+//! the film of a bearing.
+
+use serde::{Deserialize, Serialize};
+use sommerfeld_database::{DatabaseError, Table, TableFilm};
+use sommerfeld_film::{Bearing, Cavitation, FilmForce, Inlet};
+use std::path::Path;
+use std::sync::Arc;
+
+/// How the two motions of a film, wedge and squeeze, are put together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Scheme {
+    /// Solved together, at every ratio of one to the other.
+    Combined,
+}
+
+impl Scheme {
+    /// As in study file and database.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Combined => "combined",
+        }
+    }
+}
+
+/// A database that a study names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StoredFilms {
+    /// The file as the study names it.
+    pub name: String,
+    /// Its content.
+    pub table: FilmTable,
+}
+
+/// The content of a database.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FilmTable {
+    /// Wedge and squeeze solved together.
+    Combined(Arc<Table>),
+}
+
+/// What a reader of results must know of the database that a film was looked up in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct DatabaseFacts {
+    /// The file as the study names it.
+    pub file: String,
+    /// How wedge and squeeze are put together.
+    pub scheme: Scheme,
+    /// Closure for the ruptured film.
+    pub closure: String,
+    /// Smallest and largest width over diameter.
+    pub width_ratios: [f64; 2],
+    /// Last relative eccentricity with nodes.
+    pub last_eccentricity: f64,
+    /// Largest error of the force over its size that the samples of the build found.
+    pub stated_error: f64,
+    /// The number of those samples.
+    pub samples: usize,
+    /// Nodes of the table.
+    pub points: usize,
+}
+
+impl DatabaseFacts {
+    /// In a line for a reader.
+    #[must_use]
+    pub fn told(&self) -> String {
+        let [narrow, wide] = self.width_ratios;
+        let held = if narrow == wide {
+            format!("B/D {narrow:.4}")
+        } else {
+            format!("B/D {narrow:.4} to {wide:.4}")
+        };
+        format!(
+            "database {} ({}, closure {}, {held}), stated error {:.1e} of the force",
+            self.file,
+            self.scheme.name(),
+            self.closure,
+            self.stated_error
+        )
+    }
+}
+
+/// The closure as in study files.
+#[must_use]
+pub const fn closure_name(closure: Cavitation) -> &'static str {
+    match closure {
+        Cavitation::Gumbel => "gumbel",
+        Cavitation::Reynolds => "reynolds",
+        Cavitation::MassConserving => "mass-conserving",
+    }
+}
+
+impl StoredFilms {
+    /// Reads a database; `name` is how the study names it.
+    ///
+    /// # Errors
+    /// [`DatabaseError`] where there is no such file, or it is none, or damaged.
+    pub fn load(name: &str, path: &Path) -> Result<Self, DatabaseError> {
+        Ok(Self {
+            name: name.to_owned(),
+            table: FilmTable::Combined(Arc::new(Table::load(path)?)),
+        })
+    }
+
+    /// How wedge and squeeze are put together.
+    #[must_use]
+    pub fn scheme(&self) -> Scheme {
+        match &self.table {
+            FilmTable::Combined(_) => Scheme::Combined,
+        }
+    }
+
+    /// Closure for the ruptured film.
+    #[must_use]
+    pub fn closure(&self) -> Cavitation {
+        match &self.table {
+            FilmTable::Combined(table) => table.recipe().closure,
+        }
+    }
+
+    /// What a reader of results must know.
+    #[must_use]
+    pub fn facts(&self) -> DatabaseFacts {
+        match &self.table {
+            FilmTable::Combined(table) => {
+                let recipe = table.recipe();
+                DatabaseFacts {
+                    file: self.name.clone(),
+                    scheme: self.scheme(),
+                    closure: closure_name(recipe.closure).to_owned(),
+                    width_ratios: recipe.width_ratios,
+                    last_eccentricity: recipe.last_eccentricity,
+                    stated_error: table.errors().maximum,
+                    samples: recipe.samples,
+                    points: table.nodes().len(),
+                }
+            }
+        }
+    }
+
+    /// The film of a bearing at one viscosity, Pa s.
+    ///
+    /// # Errors
+    /// [`DatabaseError`] for a bearing that the table does not hold.
+    pub fn film(
+        &self,
+        bearing: &Bearing,
+        viscosity: f64,
+    ) -> Result<Box<dyn FilmForce + Send>, DatabaseError> {
+        match &self.table {
+            FilmTable::Combined(table) => {
+                let film = TableFilm::new(Arc::clone(table), bearing, viscosity)?;
+                Ok(Box::new(film))
+            }
+        }
+    }
+
+    /// Why the database does not hold the film of a bearing, with what it holds; `None` where it does.
+    #[must_use]
+    pub fn misfit(&self, bearing: &Bearing) -> Option<String> {
+        let facts = self.facts();
+        let closure = closure_name(bearing.cavitation);
+        if facts.closure != closure {
+            return Some(format!(
+                "the database {} holds films with cavitation = \"{}\", the bearing has \"{closure}\"",
+                self.name, facts.closure
+            ));
+        }
+        if bearing.inlet != Inlet::Cyclic {
+            return Some(format!(
+                "the database {} holds films with inlet = \"cyclic\", the bearing has \
+                 \"max-film-line\"",
+                self.name
+            ));
+        }
+        let [narrow, wide] = facts.width_ratios;
+        let ratio = bearing.width / bearing.diameter;
+        let round_off = 1e-9;
+        if !(ratio >= narrow * (1.0 - round_off) && ratio <= wide * (1.0 + round_off)) {
+            let held = if narrow == wide {
+                format!("width/diameter {narrow:.6}")
+            } else {
+                format!("width/diameter from {narrow:.6} to {wide:.6}")
+            };
+            return Some(format!(
+                "the database {} holds films of {held}, the bearing has {ratio:.6}",
+                self.name
+            ));
+        }
+        None
+    }
+}
+
+/// The database of a scheme that holds the film of a bearing.
+///
+/// # Errors
+/// Why none does, in words.
+pub fn holding<'a>(
+    databases: &'a [StoredFilms],
+    scheme: Scheme,
+    bearing: &Bearing,
+) -> Result<&'a StoredFilms, String> {
+    let mut reasons = Vec::new();
+    for database in databases.iter().filter(|one| one.scheme() == scheme) {
+        match database.misfit(bearing) {
+            None => return Ok(database),
+            Some(reason) => reasons.push(reason),
+        }
+    }
+    if reasons.is_empty() {
+        return Err(format!(
+            "film.database names no database of the scheme {}",
+            scheme.name()
+        ));
+    }
+    Err(reasons.join("; "))
+}
