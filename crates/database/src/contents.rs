@@ -272,6 +272,20 @@ impl Contents {
         }
     }
 
+    /// An attribute that is a whole number.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Contents`] where it is missing or something else.
+    pub fn integer(&self, path: &Path, name: &str) -> Result<i64, DatabaseError> {
+        match self.attributes.get(name) {
+            Some(Value::Integer(number)) => Ok(*number),
+            other => Err(DatabaseError::Contents {
+                path: path.to_owned(),
+                reason: format!("its attribute {name} is {other:?} instead of a whole number"),
+            }),
+        }
+    }
+
     /// An attribute that is text.
     ///
     /// # Errors
