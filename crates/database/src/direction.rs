@@ -1,0 +1,127 @@
+//! In which coordinates does the film of an aligned journal change evenly?
+//!
+//! ```text
+//! w = velocity - mean speed x eccentricity        (e_dot, -eccentricity omega_eff / 2) along and across
+//! H^3 operator of P = -12 (w.n)/|w|               n the unit vector from the centre to the wall
+//! F = -(eta R^3 B / (2 c^3)) |w| (dissipation w^ + turn J w^)(relative eccentricity, angle of w)
+//! ```
+//! The effective velocity w holds wedge and squeeze together, so the film of closures that bound the
+//! pressure from below is positively homogeneous in it: one angle is left, from the line of centres,
+//! mirrored where it is negative. Other than (2 eps_dot, omega_eff), from which it differs by a factor eps
+//! across, w says all at eps = 0 too: there the film only resists it, in every direction alike.
+//!
+//! Near contact the pressure changes sides while the along component falls from the across component
+//! times sqrt(2 (1 - eps)) to zero and beyond; with an opening gap the film then leaves the contact
+//! by powers of that ratio. So the direction is stretched: with `s = sqrt(1 - eps^2)`
+//! ```text
+//! t = along / (|w| + |across|) = tan(pi/4 - angle/2),      a = asinh(t/s) / asinh(1/s)   in [-1, 1]
+//! ```
+//! a = 1 where the gap closes, 0 where the journal only slides, -1 where it opens. Forces are given as
+//! the logarithm of their share along w, which is the dissipation and positive, and asinh of the ratio of
+//! the share across to it.
+
+/// Stretched direction with its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction {
+    /// Coordinate, -1 (opening) to 1 (closing).
+    pub place: f64,
+    /// Derivative by the angle of the effective velocity from the line of centres, where that is
+    /// not negative.
+    pub by_angle: f64,
+    /// Derivative by the relative eccentricity.
+    pub by_eccentricity: f64,
+}
+
+impl Direction {
+    /// Direction of the effective velocity with the components `along` the line of centres (positive
+    /// where the gap closes) and `across` it, not both zero, at a relative eccentricity from 0 to below 1.
+    #[must_use]
+    pub fn new(eccentricity: f64, along: f64, across: f64) -> Self {
+        let across = across.abs();
+        let t = along / (along.hypot(across) + across);
+        let square = (1.0 - eccentricity) * (1.0 + eccentricity);
+        let s = square.sqrt();
+        let scale = 1.0 / (1.0 / s).asinh();
+        let place = (t / s).asinh() * scale;
+        let root = (square + t * t).sqrt();
+        let by_s = scale / s * (place / (1.0 + square).sqrt() - t / root);
+        Self {
+            place,
+            by_angle: -0.5 * (1.0 + t * t) * scale / root,
+            by_eccentricity: -by_s * eccentricity / s,
+        }
+    }
+
+    /// Angle of the effective velocity from the line of centres at a coordinate, rad, 0 to pi.
+    #[must_use]
+    pub fn angle(eccentricity: f64, place: f64) -> f64 {
+        let s = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+        let t = (s * ((1.0 / s).asinh() * place).sinh()).clamp(-1.0, 1.0);
+        std::f64::consts::FRAC_PI_2 - 2.0 * t.atan()
+    }
+}
+
+/// Logarithm of the dissipation and asinh of the turn over it, of a force `[along, across]` the line of
+/// centres that answers to a unit effective velocity at `angle`, and back.
+#[must_use]
+pub fn to_logarithms(force: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    let dissipation = -(force[0] * cos + force[1] * sin);
+    let turn = force[0] * sin - force[1] * cos;
+    [dissipation.ln(), (turn / dissipation).asinh()]
+}
+
+/// Inverse of [`to_logarithms`].
+#[must_use]
+pub fn from_logarithms([dissipation, turn]: [f64; 2], angle: f64) -> [f64; 2] {
+    let (sin, cos) = angle.sin_cos();
+    let (size, turn) = (dissipation.exp(), turn.sinh());
+    [size * (turn * sin - cos), -size * (sin + turn * cos)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn directions_and_angles_are_each_others_inverse() {
+        for eps in [0.0, 0.3, 0.9, 0.999] {
+            for k in 0..=20 {
+                let angle = PI * f64::from(k) / 20.0;
+                let direction = Direction::new(eps, 3.0 * angle.cos(), -3.0 * angle.sin());
+                let back = Direction::angle(eps, direction.place);
+                assert!((back - angle).abs() < 1e-7, "{eps} {angle} {back}");
+            }
+            assert!((Direction::new(eps, 1.0, 0.0).place - 1.0).abs() < 1e-14);
+            assert!((Direction::new(eps, -1.0, 0.0).place + 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_central_differences() {
+        let place = |eps: f64, angle: f64| Direction::new(eps, angle.cos(), angle.sin()).place;
+        for eps in [0.01, 0.5, 0.98] {
+            for k in 1..20 {
+                let angle = PI * f64::from(k) / 20.0;
+                let direction = Direction::new(eps, angle.cos(), angle.sin());
+                let h = 1e-6;
+                let by_angle = (place(eps, angle + h) - place(eps, angle - h)) / (2.0 * h);
+                let by_eps = (place(eps + h, angle) - place(eps - h, angle)) / (2.0 * h);
+                assert!((by_angle - direction.by_angle).abs() < 1e-7 * (1.0 + by_angle.abs()));
+                assert!((by_eps - direction.by_eccentricity).abs() < 1e-6 * (1.0 + by_eps.abs()));
+            }
+        }
+    }
+
+    #[test]
+    fn logarithms_keep_the_force() {
+        for angle in [0.0, 0.4, 1.6, PI] {
+            let force = [-3.0 * f64::cos(angle) + 0.2, -2.0 * f64::sin(angle)];
+            let back = from_logarithms(to_logarithms(force, angle), angle);
+            for (found, given) in back.iter().zip(force) {
+                assert!((found - given).abs() < 1e-14);
+            }
+        }
+    }
+}
