@@ -2,8 +2,8 @@
 
 use crate::exit::Exit;
 use sommerfeld_study::input::{
-    self, BearingCase, Duty, Machine, MachinePlan, MessageKind, Study, Subject, SweepPlan,
-    render_all,
+    self, BearingCase, DatabasePlan, Duty, Machine, MachinePlan, MessageKind, Study, Subject,
+    SweepPlan, render_all,
 };
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::{self, TEMPLATES};
@@ -63,8 +63,20 @@ fn subject(subject: &Subject) -> String {
         ),
         Subject::Bearing(case) => bearing(case),
         Subject::Machine(plan) => machine(plan),
+        Subject::Database(plan) => database(plan),
         Subject::Sweep(plan) => sweep(plan),
     }
+}
+
+/// What is to be built.
+fn database(plan: &DatabasePlan) -> String {
+    let recipe = &plan.recipe;
+    let [narrow, wide] = recipe.width_ratios;
+    format!(
+        "  database  closure {}, width/diameter {narrow:.6} to {wide:.6}, target {:e}\n",
+        recipe.closure_name(),
+        recipe.target
+    )
 }
 
 /// What it is, its bearings by kind, its speeds.

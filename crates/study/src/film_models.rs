@@ -4,8 +4,8 @@
 //! answer is refused by name ([`refusal`]); what they have of their own, or are known to leave out, is put
 //! into the bearing that they are given, and told ([`adapted`]).
 
-use crate::film_tables::{Scheme, closure_name, holding};
-use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, TiltCondition};
+use crate::film_tables::{DatabaseFacts, Scheme, closure_name, holding};
+use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};
 use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::{
     Bearing, Cavitation, Elasticity, FilmError, FilmForce, FilmShear, FilmSolver, Finish, Inlet,
@@ -41,6 +41,26 @@ pub(crate) fn film_of(
                 .map_err(|_| unfit)?
         }
     })
+}
+
+/// The databases that the films of a study are looked up in, each once.
+pub(crate) fn databases_of(study: &Study) -> Vec<DatabaseFacts> {
+    let model = study.film.model;
+    if !model.is_looked_up() {
+        return Vec::new();
+    }
+    let bearings: Vec<&Bearing> = match &study.subject {
+        Subject::Bearing(case) => vec![&case.bearing],
+        Subject::Machine(plan) => plan.bearings.iter().map(|on| &on.bearing).collect(),
+        Subject::Dimensionless(_) | Subject::Sweep(_) | Subject::Database(_) => Vec::new(),
+    };
+    let mut found: Vec<DatabaseFacts> = Vec::new();
+    for bearing in bearings {
+        let database = holding(&study.film.databases, scheme(model), bearing);
+        let facts = database.map(|database| database.facts());
+        found.extend(facts.ok().filter(|facts| !found.contains(facts)));
+    }
+    found
 }
 
 /// The scheme of the databases that a model looks up.

@@ -3,7 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 use sommerfeld_database::{DatabaseError, Table, TableFilm};
-use sommerfeld_film::{Bearing, Cavitation, FilmForce, Inlet};
+use sommerfeld_film::{
+    Bearing, Cavitation, Conditions, Elasticity, Ends, FilmForce, FilmShear, Finish, Inlet,
+    JournalState, Shape, Step,
+};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -189,6 +192,87 @@ impl StoredFilms {
             ));
         }
         None
+    }
+}
+
+/// What a database says of a state, without dimensions: `w` is the effective velocity of the journal
+/// centre, relative to the oil that both surfaces drag along, `velocity - mean speed x eccentricity`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LookedUp {
+    /// Force along and across the line of centres over `eta |w| R^3 B / (2 c^3)`.
+    pub force: [f64; 2],
+    /// Its derivative by the relative eccentricity, w held.
+    pub by_eccentricity: [f64; 2],
+    /// Its derivative by the angle of w from the line of centres.
+    pub by_angle: [f64; 2],
+    /// Peak pressure over `eta |w| R^2 / c^3`.
+    pub peak_pressure: f64,
+    /// Its angle from the narrowest gap, rad.
+    pub peak_angle: f64,
+    /// Oil leaving at each end over `|w| R B`.
+    pub side_flow: f64,
+    /// Share of the bearing area under pressure.
+    pub full_film_share: f64,
+}
+
+/// A bearing of radius 1 m in which states without dimensions are looked up.
+const CLEARANCE: f64 = 1e-3;
+/// Pa s
+const VISCOSITY: f64 = 1e-6;
+
+impl StoredFilms {
+    /// Looks up the film of a state: width over diameter, relative eccentricity, angle of the effective
+    /// velocity from the line of centres (rad; 0 where the gap closes).
+    ///
+    /// # Errors
+    /// [`DatabaseError`] for a width ratio that the database does not hold, and an eccentricity of 1 and
+    /// more.
+    pub fn look(
+        &self,
+        width_ratio: f64,
+        eccentricity: f64,
+        angle: f64,
+    ) -> Result<LookedUp, DatabaseError> {
+        let bearing = Bearing {
+            diameter: 2.0,
+            width: 2.0 * width_ratio,
+            radial_clearance: CLEARANCE,
+            bore: Shape::cylindrical(),
+            journal: Shape::cylindrical(),
+            feeds: Vec::new(),
+            ambient_pressure: 0.0,
+            cavitation_pressure: 0.0,
+            ends: Ends::Air,
+            inlet: Inlet::Cyclic,
+            cavitation: self.closure(),
+            film_shear: FilmShear::FullWidth,
+            finish: Finish::Smooth,
+            elasticity: Elasticity::Rigid,
+        };
+        let mut film = self.film(&bearing, VISCOSITY)?;
+        let (sin, cos) = angle.sin_cos();
+        let state = JournalState {
+            position: [eccentricity * CLEARANCE, 0.0],
+            velocity: [cos, sin],
+            ..JournalState::default()
+        };
+        let conditions = Conditions {
+            temperature: 373.15, // the viscosity is given
+            feed_pressures: None,
+        };
+        let seen = film.react(&state, Step::Steady, &conditions)?;
+        let scale = VISCOSITY * bearing.width / (2.0 * CLEARANCE.powi(3));
+        let summary = film.summary();
+        let (by_position, by_rate) = (seen.tangent.by_position, seen.tangent.by_rate);
+        Ok(LookedUp {
+            force: seen.reaction.film_force.map(|force| force / scale),
+            by_eccentricity: [0, 1].map(|row| by_position[row][0] * CLEARANCE / scale),
+            by_angle: [0, 1].map(|row| (cos * by_rate[row][1] - sin * by_rate[row][0]) / scale),
+            peak_pressure: summary.peak_film_pressure.value * CLEARANCE.powi(3) / VISCOSITY,
+            peak_angle: summary.peak_film_pressure.angle,
+            side_flow: summary.side_flow[0] / bearing.width,
+            full_film_share: summary.full_film_share,
+        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! From a study file to results: checked input, the run, tables and the report.
 
 pub mod cases;
+pub mod database_files;
 mod film_models;
 pub mod film_tables;
 pub mod hdf5;

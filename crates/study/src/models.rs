@@ -43,6 +43,15 @@ pub const MODELS: &[Model] = &[
     },
     Model {
         family: "film",
+        name: "database",
+        description: "Films of a plain aligned bearing solved before, wedge and squeeze together, looked \
+                      up by relative eccentricity and direction of the motion",
+        reference: "Marsalek, O., Novotny, P., Drapal, L., Pistek, V. (2012): Improvements in \
+                    computational modelling of slide bearings, for the idea of the database",
+        doi: Some("10.2478/v10138-012-0015-7"),
+    },
+    Model {
+        family: "film",
         name: "short-bearing",
         description: "Reynolds equation without circumferential pressure flow: narrow bearings",
         reference: "Ocvirk, F. W. (1952): Short-bearing approximation for full journal bearings. \

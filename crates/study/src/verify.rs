@@ -178,10 +178,7 @@ fn kind(key: &str, results: &Results) -> Kind {
     let bearing = match &results.body {
         Body::Steady(steady) => Some(&steady.bearing),
         Body::LoadCycle(cycle) => Some(&cycle.bearing),
-        Body::Dimensionless(_)
-        | Body::Machine(_)
-        | Body::Database(_)
-        | Body::Sweep(_) => None,
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => None,
     };
     let shears_by_fraction = bearing.is_some_and(|b| b.film_shear == FilmShear::FilmFraction);
     if EXTREMES.contains(&key) {
@@ -222,7 +219,8 @@ pub fn time_errors(results: &Results, run: &Figures, with_long_steps: &Figures) 
             [first, second, ..] => 0.5 * (second.crank_angle - first.crank_angle).to_degrees(),
             _ => 0.0,
         },
-        Body::Steady(_) | Body::Dimensionless(_)
+        Body::Steady(_)
+        | Body::Dimensionless(_)
         | Body::Machine(_)
         | Body::Database(_)
         | Body::Sweep(_) => 0.0,
@@ -281,7 +279,8 @@ fn difference(results: &Results, key: &str, a: f64, b: f64) -> f64 {
             [first, .., last] => (last.crank_angle - first.crank_angle).to_degrees(),
             _ => return a - b,
         },
-        Body::Steady(_) | Body::Dimensionless(_)
+        Body::Steady(_)
+        | Body::Dimensionless(_)
         | Body::Machine(_)
         | Body::Database(_)
         | Body::Sweep(_) => 360.0,
@@ -305,7 +304,8 @@ pub fn relative_errors(
     };
     let half_width = match &results.body {
         Body::Steady(steady) => 0.5 * steady.bearing.width,
-        Body::LoadCycle(_) | Body::Dimensionless(_)
+        Body::LoadCycle(_)
+        | Body::Dimensionless(_)
         | Body::Machine(_)
         | Body::Database(_)
         | Body::Sweep(_) => 0.0,

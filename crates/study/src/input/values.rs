@@ -450,10 +450,7 @@ fn files(list: &[Spanned<DeValue<'_>>]) -> Result<Vec<String>, Refusal> {
             DeValue::String(text) => Ok(text.to_string()),
             other => Err(Refusal {
                 part: Some(value.span()),
-                ..Refusal::new(format!(
-                    "must be paths in quotes, not {}",
-                    type_name(other)
-                ))
+                ..Refusal::new(format!("must be paths in quotes, not {}", type_name(other)))
             }),
         })
         .collect()

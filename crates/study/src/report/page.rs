@@ -489,6 +489,8 @@ fn facts(header: &Header) -> Vec<(String, String)> {
             format!("{} s", format::significant(header.wall_time)),
         ),
     ];
+    let databases = header.databases.iter();
+    facts.extend(databases.map(|one| ("Film".to_owned(), one.told())));
     if let Some(hash) = &header.study_hash {
         facts.push(("Hash of the input".to_owned(), hash.clone()));
     }

@@ -1,11 +1,13 @@
 //! What one run produced: plain owned data, SI, that every output format reads.
 
+pub mod database;
 pub mod machine;
 
 use crate::cases::SweepResults;
 use crate::film_tables::DatabaseFacts;
 use crate::limits::{Limit, LimitCheck, Quantity, Side};
 use crate::models::Model;
+use database::DatabaseResults;
 use machine::{BearingResults, MachineResults};
 use serde::{Deserialize, Serialize};
 use sommerfeld_bearing::{

@@ -219,10 +219,7 @@ fn without_fields(mut body: Body) -> Body {
     match &mut body {
         Body::Steady(steady) => steady.field = None,
         Body::LoadCycle(cycle) => cycle.fields = None,
-        Body::Dimensionless(_)
-        | Body::Machine(_)
-        | Body::Database(_)
-        | Body::Sweep(_) => {}
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => {}
     }
     body
 }

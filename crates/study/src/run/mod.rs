@@ -4,6 +4,7 @@ mod accuracy;
 mod compare;
 mod crew;
 mod cycle;
+mod database;
 mod heat;
 mod heat_field;
 mod inputs;
@@ -14,19 +15,19 @@ mod steady;
 mod sweep;
 mod turn;
 
-use crate::film_models::film_of;
-use crate::input::{
-    BearingCase, Duty, FilmSettings, HeatPlan, StoredInstants, Study, Subject,
-};
+use crate::film_models::{databases_of, film_of};
+use crate::film_tables::closure_name;
+use crate::input::{BearingCase, Duty, FilmSettings, HeatPlan, StoredInstants, Study, Subject};
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
 use crate::output::{OutputError, StoredFields, check_directory, prepare_directory, write_stored};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, DimensionlessResults, Header, Results};
+use crate::results::{Body, CycleResults, DimensionlessResults, Header, Results};
 use crate::sanity;
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
+use database::{run_database, solve_database};
 use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
@@ -104,6 +105,9 @@ pub enum RunError {
         "{0}, or a file it names, has changed while the sweep ran\n  = hint: run the sweep again, in another directory unless the change is taken back"
     )]
     InputChanged(String),
+    /// A database cannot be built.
+    #[error("{0}")]
+    Database(String),
     /// The system gives no threads.
     #[error("no threads can be started: {0}")]
     Threads(String),
@@ -136,6 +140,9 @@ pub fn run_with(
     }
     if let Subject::Machine(plan) = &study.subject {
         return run_machine(study, plan, directory, options, progress);
+    }
+    if let Subject::Database(plan) = &study.subject {
+        return run_database(study, plan, directory, options, progress);
     }
     // Better told before a long run than after it.
     check_directory(directory, &study.files)?;
@@ -207,6 +214,7 @@ fn solve_into(
     match &study.subject {
         Subject::Sweep(plan) => return Ok(solve_sweep(study, plan, options, progress)),
         Subject::Machine(plan) => return solve_machine(study, plan, options, progress),
+        Subject::Database(plan) => return solve_database(study, plan, options, progress),
         Subject::Bearing(_) | Subject::Dimensionless(_) => {}
     }
     let start = Instant::now();
@@ -267,8 +275,36 @@ fn finish_results(study: &Study, results: &mut Results) {
     results.check_limits(&limits(study));
     let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
     results.header.messages.extend(beyond_laminar);
+    results.header.messages.extend(beyond_database(results));
     let warnings = sanity::warnings(results);
     results.header.messages.extend(warnings);
+}
+
+/// That a journal came nearer to the shell than the films of the databases it was looked up in.
+fn beyond_database(results: &Results) -> Option<String> {
+    let databases = results.header.databases.iter();
+    let last = databases
+        .map(|one| one.last_eccentricity)
+        .reduce(f64::min)?;
+    let of_cycle = |cycle: &CycleResults| {
+        let nearest = cycle.largest(|point| cycle.relative_eccentricity(point));
+        nearest.map(|point| cycle.relative_eccentricity(point))
+    };
+    let nearest = match &results.body {
+        Body::Steady(steady) => Some(steady.relative_eccentricity()),
+        Body::LoadCycle(cycle) => of_cycle(cycle),
+        Body::Machine(machine) => {
+            let all = machine.bearings().filter_map(|(_, on)| of_cycle(&on.cycle));
+            all.reduce(f64::max)
+        }
+        Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => None,
+    }?;
+    (nearest > last).then(|| {
+        format!(
+            "the journal reaches a relative eccentricity of {nearest:.6}, beyond the last of the \
+             database, {last}: there its film is continued smoothly, without a stated error"
+        )
+    })
 }
 
 /// The study as it stands, on one grid.
@@ -284,6 +320,9 @@ fn solve_once(
         }
         Subject::Machine(plan) => {
             return solve_machine(study, plan, RunOptions::default(), progress);
+        }
+        Subject::Database(plan) => {
+            return solve_database(study, plan, RunOptions::default(), progress);
         }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.heat {
@@ -347,9 +386,17 @@ fn header(study: &Study) -> Header {
         limits: Vec::new(),
         heat: None,
         plain: None,
-        databases: Vec::new(),
+        databases: databases_of(study),
         comparison: None,
     }
+}
+
+/// The closures of the databases that the films of a study are looked up in.
+fn models_of_databases(study: &Study) -> Vec<Model> {
+    let closures = databases_of(study).into_iter().map(|facts| facts.closure);
+    closures
+        .filter_map(|closure| models::find("cavitation", &closure))
+        .collect()
 }
 
 fn models_of(study: &Study) -> Vec<Model> {
@@ -360,11 +407,18 @@ fn models_of(study: &Study) -> Vec<Model> {
         // Its cases say what they used.
         Subject::Sweep(_) => used.clear(),
         Subject::Machine(plan) => used.extend(models_of_machine(plan, &study.film)),
+        Subject::Database(plan) => {
+            used = models::find("film", "database").into_iter().collect();
+            let closure = closure_name(plan.recipe.closure);
+            used.extend(models::find("cavitation", closure));
+            used.extend(models::find("inlet", "cyclic"));
+        }
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
         Subject::Bearing(case) => {
             if study.film.model.is_field() {
                 used.extend(models::of_bearing(&case.bearing));
             }
+            used.extend(models_of_databases(study));
             let is_field = study.film.model.is_field();
             used.extend(models::of_oil(&case.lubricant, is_field));
             used.extend(models::find("heat", case.heat.name()));

@@ -3,6 +3,7 @@
 mod bearing;
 mod combustion;
 mod crankshaft;
+mod database;
 mod drillings;
 mod duty;
 mod engine;
@@ -28,6 +29,7 @@ use super::study::{
     Analysis, Compared, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
 };
 use super::values::{Value, default_value, not_built};
+use crate::film_tables::StoredFilms;
 use grooves::DrillingKeys;
 use sommerfeld_bearing::PressureCycle;
 use std::ops::Range;
@@ -54,11 +56,13 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         files: vec![PathBuf::from(file)],
         feed_cycles: Vec::new(),
         drillings: Vec::new(),
+        databases: Vec::new(),
         directory,
     };
     checker.report_missing("");
     checker.report_unused("");
     checker.leave_out_feeds();
+    checker.read_databases();
     if mode == Mode::Sweep {
         return checker.sweep();
     }
@@ -179,6 +183,8 @@ struct Checker<'t> {
     feed_cycles: Vec<PressureCycle>,
     /// Drillings in the crank of a machine, as given.
     drillings: Vec<DrillingKeys>,
+    /// The databases of films that it names.
+    databases: Vec<StoredFilms>,
     /// Where the files of the study lie.
     directory: &'t Path,
 }
@@ -246,6 +252,7 @@ impl Checker<'_> {
                 && key.used_by.contains(&self.mode)
                 && !find(section).is_some_and(|section| matches!(section.kind, Kind::TableList))
                 && !self.reading.was_given(key.path)
+                && !self.may_miss(key.path)
                 && !self.was_misspelt(key);
             // A quantity given in place of a law has no keys; a missing section is one error.
             let header = self.entry(section);
@@ -474,6 +481,7 @@ impl Checker<'_> {
             linear_solver,
             relative_error_target: self.number("film.relative_error_target"),
             compare,
+            databases: self.databases.clone(),
         })
     }
 

@@ -92,6 +92,7 @@ globalThis.sommerfeld.parts.push((report) => {
       figure.layout.hovermode = "closest";
       Object.assign(figure.layout.yaxis, { rangemode: "normal", scaleanchor: "x" });
     }
+    if (charts[name].y_log) { Object.assign(figure.layout.yaxis, { type: "log", rangemode: "normal", exponentformat: "power", dtick: 1 }); }
     if (range) { figure.layout.yaxis.range = range; }
     if (isAngle) { Object.assign(figure.layout.yaxis, report.angleTicks(report.seam, 90)); }
     return figure;
