@@ -1,6 +1,7 @@
 //! The commands.
 
 use crate::exit::Exit;
+use sommerfeld_study::film_tables::closure_name;
 use sommerfeld_study::input::{
     self, BearingCase, DatabasePlan, Duty, Machine, MachinePlan, MessageKind, Study, Subject,
     SweepPlan, render_all,
@@ -70,12 +71,12 @@ fn subject(subject: &Subject) -> String {
 
 /// What is to be built.
 fn database(plan: &DatabasePlan) -> String {
-    let recipe = &plan.recipe;
-    let [narrow, wide] = recipe.width_ratios;
+    let [narrow, wide] = plan.width_ratios();
     format!(
-        "  database  closure {}, width/diameter {narrow:.6} to {wide:.6}, target {:e}\n",
-        recipe.closure_name(),
-        recipe.target
+        "  database  {}, closure {}, width/diameter {narrow:.6} to {wide:.6}, target {:e}\n",
+        plan.scheme().name(),
+        closure_name(plan.closure()),
+        plan.target()
     )
 }
 

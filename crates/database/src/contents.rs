@@ -161,7 +161,9 @@ impl Contents {
         let read = Self::decoded(bytes)
             .map_err(|error| wrong(format!("not a whole HDF5 file ({error})")))?;
         if read.attributes.get("format") != Some(&Value::Text(FORMAT.to_owned())) {
-            return Err(wrong("its attribute format is not that of a database".to_owned()));
+            return Err(wrong(
+                "its attribute format is not that of a database".to_owned(),
+            ));
         }
         read.text(path, "scheme").map(str::to_owned)
     }

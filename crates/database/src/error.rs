@@ -58,6 +58,23 @@ pub enum DatabaseError {
         /// Width over diameter.
         width_ratio: f64,
     },
+    /// A film of a tilted journal could not be solved.
+    #[error(
+        "the film {drive} at D/B {d_over_b}, relative eccentricity {eccentricity}, gamma {gamma}, delta \
+         {delta} was not solved"
+    )]
+    TiltedNotSolved {
+        /// Its drive: D, V or W.
+        drive: char,
+        /// Diameter over width.
+        d_over_b: f64,
+        /// Relative eccentricity.
+        eccentricity: f64,
+        /// Tilt in the plane of the narrowest gap over its largest value.
+        gamma: f64,
+        /// Tilt across it, as it stands in the gap.
+        delta: f64,
+    },
     /// The file cannot be read or written.
     #[error("{}: {reason}", path.display())]
     File {

@@ -13,6 +13,7 @@ pub mod error;
 pub mod generate;
 pub mod recipe;
 pub mod spline;
+pub mod superposition;
 mod surface;
 pub mod table;
 pub mod table_film;

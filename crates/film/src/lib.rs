@@ -48,6 +48,7 @@ pub mod solver;
 pub mod spectral;
 pub mod supply;
 pub mod surfaces;
+pub mod vogelpohl;
 
 pub use bearing::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,

@@ -84,6 +84,10 @@ pub fn check(path: &Path, samples: usize, seed: u64) -> Result<FileCheck, Databa
             bound: table.recipe().target,
             stated: table.errors().maximum,
         }),
+        FilmTable::Superposition(_) => Err(DatabaseError::Unsupported {
+            reason: "a database of the scheme superposition was measured when it was built: \
+                     `sommerfeld database info` prints its errors",
+        }),
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn film_of(
         FilmModel::Mobility => Box::new(MobilityFilm::new(bearing, viscosity)?),
         FilmModel::LongBearing => Box::new(LongBearingFilm::new(bearing, viscosity)?),
         FilmModel::Online => Box::new(OnlineFilm::aligned(bearing, &at_ambient(oil))?),
-        FilmModel::Database => {
+        FilmModel::Database | FilmModel::Superposition => {
             // The reasons were told when the study was checked.
             let unfit = FilmError::Unsupported {
                 reason: "the databases of the study do not hold the film of this bearing",
@@ -72,6 +72,7 @@ pub(crate) const fn scheme(model: FilmModel) -> Scheme {
         | FilmModel::LongBearing
         | FilmModel::Online
         | FilmModel::Database => Scheme::Combined,
+        FilmModel::Superposition => Scheme::Superposition,
     }
 }
 

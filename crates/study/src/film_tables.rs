@@ -2,6 +2,8 @@
 //! the film of a bearing.
 
 use serde::{Deserialize, Serialize};
+use sommerfeld_database::contents::Contents;
+use sommerfeld_database::superposition::{SuperpositionFilm, SuperpositionTable};
 use sommerfeld_database::{DatabaseError, Table, TableFilm};
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Elasticity, Ends, FilmForce, FilmShear, Finish, Inlet,
@@ -15,6 +17,8 @@ use std::sync::Arc;
 pub enum Scheme {
     /// Solved together, at every ratio of one to the other.
     Combined,
+    /// Each solved apart, and their forces added.
+    Superposition,
 }
 
 impl Scheme {
@@ -23,6 +27,7 @@ impl Scheme {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Combined => "combined",
+            Self::Superposition => "superposition",
         }
     }
 }
@@ -37,10 +42,24 @@ pub struct StoredFilms {
 }
 
 /// The content of a database.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub enum FilmTable {
     /// Wedge and squeeze solved together.
     Combined(Arc<Table>),
+    /// Wedge and squeeze solved apart.
+    Superposition(Arc<SuperpositionTable>),
+}
+
+impl PartialEq for FilmTable {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Combined(a), Self::Combined(b)) => a == b,
+            (Self::Superposition(a), Self::Superposition(b)) => {
+                a.recipe() == b.recipe() && a.accuracy() == b.accuracy()
+            }
+            _ => false,
+        }
+    }
 }
 
 /// What a reader of results must know of the database that a film was looked up in.
@@ -75,11 +94,15 @@ impl DatabaseFacts {
             format!("B/D {narrow:.4} to {wide:.4}")
         };
         format!(
-            "database {} ({}, closure {}, {held}), stated error {:.1e} of the force",
+            "database {} ({}, closure {}, {held}), stated error {:.1e} of the force{}",
             self.file,
             self.scheme.name(),
             self.closure,
-            self.stated_error
+            self.stated_error,
+            match self.scheme {
+                Scheme::Combined => "",
+                Scheme::Superposition => " of wedge and of squeeze, but not of their sum",
+            }
         )
     }
 }
@@ -100,9 +123,14 @@ impl StoredFilms {
     /// # Errors
     /// [`DatabaseError`] where there is no such file, or it is none, or damaged.
     pub fn load(name: &str, path: &Path) -> Result<Self, DatabaseError> {
+        let table = match Contents::scheme(path)?.as_str() {
+            "superposition" => FilmTable::Superposition(Arc::new(SuperpositionTable::read(path)?)),
+            // One that is not known is told by its reader.
+            _ => FilmTable::Combined(Arc::new(Table::load(path)?)),
+        };
         Ok(Self {
             name: name.to_owned(),
-            table: FilmTable::Combined(Arc::new(Table::load(path)?)),
+            table,
         })
     }
 
@@ -111,6 +139,7 @@ impl StoredFilms {
     pub fn scheme(&self) -> Scheme {
         match &self.table {
             FilmTable::Combined(_) => Scheme::Combined,
+            FilmTable::Superposition(_) => Scheme::Superposition,
         }
     }
 
@@ -119,6 +148,7 @@ impl StoredFilms {
     pub fn closure(&self) -> Cavitation {
         match &self.table {
             FilmTable::Combined(table) => table.recipe().closure,
+            FilmTable::Superposition(table) => table.recipe().cavitation,
         }
     }
 
@@ -139,6 +169,24 @@ impl StoredFilms {
                     points: table.nodes().len(),
                 }
             }
+            FilmTable::Superposition(table) => {
+                let recipe = table.recipe();
+                let accuracy = table.accuracy();
+                let nodes = recipe.eccentricity_nodes
+                    * recipe.tilt_nodes.iter().product::<usize>()
+                    * accuracy.len();
+                let worst = accuracy.iter().map(|one| one.largest.max(one.node_error));
+                DatabaseFacts {
+                    file: self.name.clone(),
+                    scheme: self.scheme(),
+                    closure: closure_name(recipe.cavitation).to_owned(),
+                    width_ratios: [1.0 / recipe.d_over_b; 2],
+                    last_eccentricity: recipe.eccentricities[1],
+                    stated_error: worst.fold(0.0, f64::max),
+                    samples: accuracy.iter().map(|one| one.samples).sum(),
+                    points: nodes,
+                }
+            }
         }
     }
 
@@ -154,6 +202,10 @@ impl StoredFilms {
         match &self.table {
             FilmTable::Combined(table) => {
                 let film = TableFilm::new(Arc::clone(table), bearing, viscosity)?;
+                Ok(Box::new(film))
+            }
+            FilmTable::Superposition(table) => {
+                let film = SuperpositionFilm::new(Arc::clone(table), bearing, viscosity)?;
                 Ok(Box::new(film))
             }
         }

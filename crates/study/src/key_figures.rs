@@ -63,14 +63,16 @@ impl DatabaseResults {
                     facts.stated_error, facts.samples, built.target
                 ),
             ));
-            figures.push((
-                "fresh states",
-                format!(
-                    "largest error {:.2e} of {}",
-                    built.fresh_maximum(),
-                    built.fresh.len()
-                ),
-            ));
+            if !built.fresh.is_empty() {
+                figures.push((
+                    "fresh states",
+                    format!(
+                        "largest error {:.2e} of {}",
+                        built.fresh_maximum(),
+                        built.fresh.len()
+                    ),
+                ));
+            }
         }
         figures.push(("build time", format!("{:.2} s", self.build_time)));
         figures

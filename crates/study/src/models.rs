@@ -52,6 +52,14 @@ pub const MODELS: &[Model] = &[
     },
     Model {
         family: "film",
+        name: "superposition",
+        description: "Films of wedge and squeeze solved and cut apart, stored, looked up and added",
+        reference: "Marsalek, O., Novotny, P., Drapal, L., Pistek, V. (2012): Improvements in \
+                    computational modelling of slide bearings",
+        doi: Some("10.2478/v10138-012-0015-7"),
+    },
+    Model {
+        family: "film",
         name: "short-bearing",
         description: "Reynolds equation without circumferential pressure flow: narrow bearings",
         reference: "Ocvirk, F. W. (1952): Short-bearing approximation for full journal bearings. \
@@ -73,6 +81,15 @@ pub const MODELS: &[Model] = &[
         reference: "Sommerfeld, A. (1904): Zur hydrodynamischen Theorie der \
                     Schmiermittelreibung. Z. Math. Phys. 50, 97-155",
         doi: None,
+    },
+    Model {
+        family: "method",
+        name: "vogelpohl-fdm",
+        description: "Finite differences of the pressure times H^1.5 on steps that follow its gradient, \
+                      coarse to fine, point iteration with negative pressures set to 0",
+        reference: "Marsalek, O., Novotny, P., Drapal, L., Pistek, V. (2012): Improvements in \
+                    computational modelling of slide bearings; transform of Vogelpohl, G. (1937)",
+        doi: Some("10.2478/v10138-012-0015-7"),
     },
     Model {
         family: "cavitation",

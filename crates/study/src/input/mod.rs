@@ -33,8 +33,9 @@ pub use json_schema::json_schema;
 pub use keys::KEYS;
 pub use machine::{EnginePlan, Machine, MachineBearing, MachinePlan, OrbitPlan};
 pub use study::{
-    Analysis, BearingCase, Compared, CycleDuty, DatabasePlan, Duty, FilmModel, FilmSettings,
-    LinearSolver, Rotor, SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,
+    Analysis, BearingCase, Compared, CycleDuty, DatabasePlan, Duty, FilmMethod, FilmModel,
+    FilmSettings, LinearSolver, Rotor, SteadyLoad, StoredInstants, Study, StudyLimit, Subject,
+    TiltCondition,
 };
 pub use sweep::{Keep, KeyStep, SweepMode, SweepPlan, VariedKey, VariedValue};
 pub use wear::{RunningInPlan, WearPlan};

@@ -5,11 +5,12 @@ use super::heat::HeatPlan;
 use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
 use super::wear::WearPlan;
-use crate::film_tables::StoredFilms;
+use crate::film_tables::{Scheme, StoredFilms};
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_database::Recipe;
+use sommerfeld_database::superposition::SuperpositionRecipe;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
-use sommerfeld_film::{Bearing, JournalState};
+use sommerfeld_film::{Bearing, Cavitation, JournalState};
 use sommerfeld_oil::Lubricant;
 use std::path::PathBuf;
 
@@ -109,9 +110,49 @@ pub enum Subject {
 
 /// A database of films that is to be built.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DatabasePlan {
-    /// Everything that decides what it holds.
-    pub recipe: Recipe,
+pub enum DatabasePlan {
+    /// Wedge and squeeze solved together.
+    Combined(Recipe),
+    /// Wedge and squeeze solved apart, as in the paper.
+    Superposition(SuperpositionRecipe),
+}
+
+impl DatabasePlan {
+    /// Closure for the ruptured film.
+    #[must_use]
+    pub const fn closure(&self) -> Cavitation {
+        match self {
+            Self::Combined(recipe) => recipe.closure,
+            Self::Superposition(recipe) => recipe.cavitation,
+        }
+    }
+
+    /// How wedge and squeeze are put together.
+    #[must_use]
+    pub const fn scheme(&self) -> Scheme {
+        match self {
+            Self::Combined(_) => Scheme::Combined,
+            Self::Superposition(_) => Scheme::Superposition,
+        }
+    }
+
+    /// Smallest and largest width over diameter.
+    #[must_use]
+    pub const fn width_ratios(&self) -> [f64; 2] {
+        match self {
+            Self::Combined(recipe) => recipe.width_ratios,
+            Self::Superposition(recipe) => [1.0 / recipe.d_over_b; 2],
+        }
+    }
+
+    /// Error asked for.
+    #[must_use]
+    pub const fn target(&self) -> f64 {
+        match self {
+            Self::Combined(recipe) => recipe.target,
+            Self::Superposition(recipe) => recipe.node_error_target,
+        }
+    }
 }
 
 /// A bearing with its oil and what it has to do.
@@ -213,6 +254,8 @@ pub enum StoredInstants {
 pub struct FilmSettings {
     /// The model.
     pub model: FilmModel,
+    /// How a dimensionless film is solved.
+    pub method: FilmMethod,
     /// Cells around the circumference and along the axis.
     pub grid: [usize; 2],
     /// Solver of the linear systems.
@@ -266,17 +309,20 @@ pub enum FilmModel {
     Online,
     /// Looked up in a database of wedge and squeeze solved together.
     Database,
+    /// Looked up in a database of wedge and squeeze solved apart, their forces added.
+    Superposition,
 }
 
 impl FilmModel {
     /// Every model.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Field,
         Self::ShortBearing,
         Self::Mobility,
         Self::LongBearing,
         Self::Online,
         Self::Database,
+        Self::Superposition,
     ];
 
     /// The model of this name.
@@ -295,6 +341,7 @@ impl FilmModel {
             Self::LongBearing => "long-bearing",
             Self::Online => "online",
             Self::Database => "database",
+            Self::Superposition => "superposition",
         }
     }
 
@@ -307,7 +354,7 @@ impl FilmModel {
     /// It is looked up in a database.
     #[must_use]
     pub const fn is_looked_up(self) -> bool {
-        matches!(self, Self::Database)
+        matches!(self, Self::Database | Self::Superposition)
     }
 
     /// It takes a bearing with grooves and holes and does not use them: an estimate of closed form. The
@@ -318,6 +365,26 @@ impl FilmModel {
             self,
             Self::ShortBearing | Self::Mobility | Self::LongBearing
         )
+    }
+}
+
+/// How the Reynolds equation is solved on a grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilmMethod {
+    /// Cells and active sets.
+    FiniteVolume,
+    /// The paper's finite differences with point iteration; of dimensionless films alone.
+    VogelpohlFdm,
+}
+
+impl FilmMethod {
+    /// As in the study file.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FiniteVolume => "finite-volume",
+            Self::VogelpohlFdm => "vogelpohl-fdm",
+        }
     }
 }
 

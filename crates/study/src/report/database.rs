@@ -19,14 +19,18 @@ pub(super) fn fill(page: &mut Page, header: &Header, database: &DatabaseResults)
         return json!({});
     };
     page.cards = cards(header, database, built);
-    page.sections = vec![errors_section(), content_section()];
+    page.sections = vec![content_section()];
     page.tables = vec![errors_table(built), content_table(built)];
-    json!({ "charts": {
-        "database-histogram": histogram(built),
-        "database-errors": errors_over_eccentricity(built),
+    let mut charts = json!({
         "database-force": curves(built, "Force / (η |w| R³ B / 2c³)", |curve| &curve.force),
         "database-peak": curves(built, "Peak pressure / (η |w| R² / c³)", |curve| &curve.peak),
-    }})
+    });
+    if !built.fresh.is_empty() {
+        page.sections.insert(0, errors_section());
+        charts["database-histogram"] = histogram(built);
+        charts["database-errors"] = errors_over_eccentricity(built);
+    }
+    json!({ "charts": charts })
 }
 
 fn small(value: f64) -> String {
@@ -49,7 +53,7 @@ fn cards(header: &Header, database: &DatabaseResults, built: &BuiltDatabase) -> 
     let axes: Vec<String> = axes
         .map(|(name, count)| format!("{count} {name}"))
         .collect();
-    vec![
+    let mut cards = vec![
         card(
             "Largest error of the force",
             "maximum_relative_error",
@@ -61,14 +65,6 @@ fn cards(header: &Header, database: &DatabaseResults, built: &BuiltDatabase) -> 
                 built.facts.samples,
                 small(built.target)
             ),
-        ),
-        card(
-            "Largest error, fresh states",
-            "fresh_maximum_relative_error",
-            fresh,
-            small(fresh),
-            "",
-            format!("of {} states drawn after the build", built.fresh.len()),
         ),
         card(
             "Points",
@@ -86,7 +82,21 @@ fn cards(header: &Header, database: &DatabaseResults, built: &BuiltDatabase) -> 
             "s",
             "solving, refining and checking".to_owned(),
         ),
-    ]
+    ];
+    if !built.fresh.is_empty() {
+        cards.insert(
+            1,
+            card(
+                "Largest error, fresh states",
+                "fresh_maximum_relative_error",
+                fresh,
+                small(fresh),
+                "",
+                format!("of {} states drawn after the build", built.fresh.len()),
+            ),
+        );
+    }
+    cards
 }
 
 fn figure(kind: &'static str, title: &'static str, caption: &str) -> Figure {
@@ -145,7 +155,7 @@ fn content_section() -> Section {
 }
 
 fn errors_table(built: &BuiltDatabase) -> Table {
-    let rows = [
+    let mut rows = vec![
         ("Target", small(built.target)),
         (
             "Largest, of the samples of the build (stated in the file)",
@@ -154,13 +164,17 @@ fn errors_table(built: &BuiltDatabase) -> Table {
         ("99.9 % of them stay below", small(built.quantile_999)),
         ("Half of them stay below", small(built.median)),
         ("Samples of the build", built.facts.samples.to_string()),
-        ("Largest, of fresh states", small(built.fresh_maximum())),
-        ("Fresh states", built.fresh.len().to_string()),
-        (
-            "Largest error of the peak pressure over itself",
-            small(built.peak_maximum),
-        ),
     ];
+    if !built.fresh.is_empty() {
+        rows.push(("Largest, of fresh states", small(built.fresh_maximum())));
+        rows.push(("Fresh states", built.fresh.len().to_string()));
+    }
+    if let Some(peak) = built.peak_maximum {
+        rows.push((
+            "Largest error of the peak pressure over itself",
+            small(peak),
+        ));
+    }
     Table {
         title: "Errors",
         note: "Error of the force vector over its own size, except where said.".to_owned(),

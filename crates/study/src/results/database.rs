@@ -25,11 +25,13 @@ pub struct BuiltDatabase {
     pub quantile_999: f64,
     /// Half of them.
     pub median: f64,
-    /// Largest error of the peak pressure over itself, of the same samples.
-    pub peak_maximum: f64,
+    /// Largest error of the peak pressure over itself, of the same samples; `None` where it was not
+    /// measured.
+    pub peak_maximum: Option<f64>,
     /// Nodes along each axis, with its name.
     pub axes: Vec<(&'static str, usize)>,
-    /// States drawn anew after the build, each against a film solved for it.
+    /// States drawn anew after the build, each against a film solved for it; none where the build
+    /// measured all.
     pub fresh: Vec<FreshSample>,
     /// What the database says over its eccentricities, by direction of the motion.
     pub curves: Vec<ForceCurve>,

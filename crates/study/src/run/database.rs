@@ -11,9 +11,10 @@ use crate::progress::ProgressEvent;
 use crate::results::database::{BuiltDatabase, DatabaseResults, ForceCurve, FreshSample};
 use crate::results::{Body, Results};
 use rayon::prelude::*;
+use sommerfeld_database::superposition::{Accuracy, SuperpositionTable};
 use sommerfeld_database::{DatabaseError, Progress, Table, check, generate};
 use sommerfeld_film::Outcome;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -42,12 +43,11 @@ pub(super) fn run_database(
     let unfinished = directory.join(UNFINISHED_NAME);
     let file = directory.join(DATABASE_NAME);
     let start = Instant::now();
-    let built = build(plan, Some(&unfinished), options, progress)?;
+    let built = build(plan, Some((&unfinished, &file)), options, progress)?;
     let results = match built {
         None => results(study, unfinished, None, start),
-        Some((table, fresh)) => {
-            table.save(&file).map_err(|error| disk(error, &file))?;
-            let built = described(&file, table, fresh)?;
+        Some(found) => {
+            let built = described(&file, plan, found)?;
             results(study, file.clone(), Some(built), start)
         }
     };
@@ -69,17 +69,12 @@ pub(super) fn solve_database(
     let file = Path::new(DATABASE_NAME).to_path_buf();
     let built = match build(plan, None, options, progress)? {
         None => None,
-        Some((table, fresh)) => Some(described(&file, table, fresh)?),
+        Some(found) => Some(described(&file, plan, found)?),
     };
     Ok(results(study, file, built, start))
 }
 
-fn results(
-    study: &Study,
-    file: std::path::PathBuf,
-    built: Option<BuiltDatabase>,
-    start: Instant,
-) -> Results {
+fn results(study: &Study, file: PathBuf, built: Option<BuiltDatabase>, start: Instant) -> Results {
     let mut header = header(study);
     header.wall_time = start.elapsed().as_secs_f64();
     match &built {
@@ -125,7 +120,6 @@ struct Watch {
     level: AtomicUsize,
     is_checking: AtomicBool,
     is_stopped: AtomicBool,
-    has_ended: AtomicBool,
 }
 
 impl Progress for Watch {
@@ -156,29 +150,29 @@ impl Watch {
     }
 }
 
-type Found = Option<(Table, Vec<FreshSample>)>;
+/// A database, with states drawn anew.
+struct Found {
+    table: FilmTable,
+    fresh: Vec<FreshSample>,
+}
 
 /// Solves the films on so many threads while this one shows how far it is; `None` where it was stopped.
+/// With `files`, what is solved so far lies in the first and the database in the second.
 fn build(
     plan: &DatabasePlan,
-    unfinished: Option<&Path>,
+    files: Option<(&Path, &Path)>,
     options: RunOptions,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Found, RunError> {
+) -> Result<Option<Found>, RunError> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(options.threads.unwrap_or(0))
         .build()
         .map_err(|error| RunError::Threads(error.to_string()))?;
     let watch = Watch::default();
     let ended = std::thread::scope(|scope| {
-        let watch = &watch;
-        let pool = &pool;
-        let work = scope.spawn(move || {
-            let built = pool.install(|| built_and_checked(plan, unfinished, watch));
-            watch.has_ended.store(true, Ordering::Relaxed);
-            built
-        });
-        while !watch.has_ended.load(Ordering::Relaxed) && !work.is_finished() {
+        let (watch, pool) = (&watch, &pool);
+        let work = scope.spawn(move || pool.install(|| built_and_checked(plan, files, watch)));
+        while !work.is_finished() {
             if progress(watch.event()).is_break() {
                 watch.is_stopped.store(true, Ordering::Relaxed);
             }
@@ -189,6 +183,10 @@ fn build(
     match ended {
         Ok(Ok(found)) => Ok(Some(found)),
         Ok(Err(DatabaseError::Interrupted { .. })) => Ok(None),
+        Ok(Err(error @ DatabaseError::File { .. })) => {
+            let path = files.map_or(Path::new(DATABASE_NAME), |(_, file)| file);
+            Err(disk(&error, path))
+        }
         Ok(Err(error)) => Err(RunError::Database(error.to_string())),
         Err(_) => Err(RunError::Threads(
             "a thread of the build ended early".to_owned(),
@@ -198,13 +196,36 @@ fn build(
 
 fn built_and_checked(
     plan: &DatabasePlan,
-    unfinished: Option<&Path>,
+    files: Option<(&Path, &Path)>,
     watch: &Watch,
-) -> Result<(Table, Vec<FreshSample>), DatabaseError> {
-    let table = Arc::new(generate(&plan.recipe, watch, unfinished)?);
-    watch.is_checking.store(true, Ordering::Relaxed);
-    let fresh = fresh_samples(&table, FRESH, plan.recipe.seed.wrapping_add(1))?;
-    Ok((Arc::unwrap_or_clone(table), fresh))
+) -> Result<Found, DatabaseError> {
+    match plan {
+        DatabasePlan::Combined(recipe) => {
+            let table = generate(recipe, watch, files.map(|(unfinished, _)| unfinished))?;
+            watch.is_checking.store(true, Ordering::Relaxed);
+            let table = Arc::new(table);
+            let fresh = fresh_samples(&table, FRESH, recipe.seed.wrapping_add(1))?;
+            if let Some((_, file)) = files {
+                table.save(file)?;
+            }
+            Ok(Found {
+                table: FilmTable::Combined(table),
+                fresh,
+            })
+        }
+        DatabasePlan::Superposition(recipe) => {
+            // It keeps what is solved beside the file that it is to be.
+            let file = files.map(|(_, file)| file);
+            let table = SuperpositionTable::build(recipe, file, &mut |done, total| {
+                watch.films(done, total);
+                !watch.interrupted()
+            })?;
+            Ok(Found {
+                table: FilmTable::Superposition(Arc::new(table)),
+                fresh: Vec::new(),
+            })
+        }
+    }
 }
 
 /// States drawn from seeds of their own, each against the film solved for it.
@@ -229,30 +250,47 @@ fn fresh_samples(
 }
 
 /// What the reader of the results sees of a database.
-fn described(
-    file: &Path,
-    table: Table,
-    fresh: Vec<FreshSample>,
-) -> Result<BuiltDatabase, RunError> {
-    let errors = *table.errors();
-    let target = table.recipe().target;
-    let counts = table.axes().counts();
+fn described(file: &Path, plan: &DatabasePlan, found: Found) -> Result<BuiltDatabase, RunError> {
     let stored = StoredFilms {
         name: file.to_string_lossy().into_owned(),
-        table: FilmTable::Combined(Arc::new(table)),
+        table: found.table,
+    };
+    let worst = |of: fn(&Accuracy) -> f64, accuracy: &[Accuracy]| {
+        accuracy.iter().map(of).fold(0.0, f64::max)
+    };
+    let (quantiles, peak_maximum, axes) = match &stored.table {
+        FilmTable::Combined(table) => {
+            let errors = table.errors();
+            let names = ["width ratio", "eccentricity", "direction"];
+            let axes = names.into_iter().zip(table.axes().counts());
+            (
+                [errors.quantile_999, errors.median],
+                Some(errors.peak_maximum),
+                axes.collect(),
+            )
+        }
+        FilmTable::Superposition(table) => {
+            let accuracy = table.accuracy();
+            let [along, across] = table.recipe().tilt_nodes;
+            let axes = vec![
+                ("drive", accuracy.len()),
+                ("eccentricity", table.recipe().eccentricity_nodes),
+                ("tilt", along),
+                ("transverse tilt", across),
+            ];
+            let quantiles = [worst(|a| a.of_999, accuracy), worst(|a| a.median, accuracy)];
+            (quantiles, None, axes)
+        }
     };
     let curves = curves(&stored).map_err(|error| RunError::Database(error.to_string()))?;
     Ok(BuiltDatabase {
         facts: stored.facts(),
-        target,
-        quantile_999: errors.quantile_999,
-        median: errors.median,
-        peak_maximum: errors.peak_maximum,
-        axes: ["width ratio", "eccentricity", "direction"]
-            .into_iter()
-            .zip(counts)
-            .collect(),
-        fresh,
+        target: plan.target(),
+        quantile_999: quantiles[0],
+        median: quantiles[1],
+        peak_maximum,
+        axes,
+        fresh: found.fresh,
         curves,
     })
 }
@@ -284,7 +322,7 @@ fn curves(stored: &StoredFilms) -> Result<Vec<ForceCurve>, DatabaseError> {
     Ok(all)
 }
 
-fn disk(error: DatabaseError, path: &Path) -> RunError {
+fn disk(error: &DatabaseError, path: &Path) -> RunError {
     RunError::Output(OutputError::Disk {
         action: "write the database",
         path: path.to_path_buf(),

@@ -16,8 +16,11 @@ mod sweep;
 mod turn;
 
 use crate::film_models::{databases_of, film_of};
-use crate::film_tables::closure_name;
-use crate::input::{BearingCase, Duty, FilmSettings, HeatPlan, StoredInstants, Study, Subject};
+use crate::film_tables::{Scheme, closure_name};
+use crate::input::{
+    BearingCase, Duty, FilmMethod, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study,
+    Subject,
+};
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
@@ -31,6 +34,7 @@ use database::{run_database, solve_database};
 use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
+use sommerfeld_film::vogelpohl::{VogelpohlSettings, solve_vogelpohl};
 use sommerfeld_film::{Conditions, FilmError, FilmSummary, JournalState, Outcome};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -408,9 +412,12 @@ fn models_of(study: &Study) -> Vec<Model> {
         Subject::Sweep(_) => used.clear(),
         Subject::Machine(plan) => used.extend(models_of_machine(plan, &study.film)),
         Subject::Database(plan) => {
-            used = models::find("film", "database").into_iter().collect();
-            let closure = closure_name(plan.recipe.closure);
-            used.extend(models::find("cavitation", closure));
+            let film = match plan.scheme() {
+                Scheme::Combined => FilmModel::Database,
+                Scheme::Superposition => FilmModel::Superposition,
+            };
+            used = models::find("film", film.name()).into_iter().collect();
+            used.extend(models::find("cavitation", closure_name(plan.closure())));
             used.extend(models::find("inlet", "cyclic"));
         }
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
@@ -457,12 +464,22 @@ fn solve_paper(
     settings: &FilmSettings,
     header: &mut Header,
 ) -> Result<Body, FilmError> {
-    let solution = solve_dimensionless(film, settings.grid)?;
-    note_outcome(solution.outcome, header);
-    header
-        .models
-        .extend(models::find("extrapolation", "richardson"));
-    let integrals = solution.integrals;
+    let (integrals, outcome) = match settings.method {
+        FilmMethod::FiniteVolume => {
+            let solution = solve_dimensionless(film, settings.grid)?;
+            header
+                .models
+                .extend(models::find("extrapolation", "richardson"));
+            (solution.integrals, solution.outcome)
+        }
+        FilmMethod::VogelpohlFdm => {
+            let solution = solve_vogelpohl(film, &VogelpohlSettings::new(settings.grid))?;
+            let method = models::find("method", settings.method.name());
+            header.models.extend(method);
+            (solution.integrals, solution.outcome)
+        }
+    };
+    note_outcome(outcome, header);
     Ok(Body::Dimensionless(DimensionlessResults {
         p_cos: integrals.p_cos,
         p_sin: integrals.p_sin,

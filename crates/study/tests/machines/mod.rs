@@ -9,8 +9,8 @@ use sommerfeld_film::{Bearing, Cavitation, Ends, FilmShear, Inlet, Shape};
 use sommerfeld_oil::Lubricant;
 use sommerfeld_study::Study;
 use sommerfeld_study::input::{
-    Analysis, EnginePlan, FilmModel, FilmSettings, HeatPlan, LinearSolver, Machine, MachineBearing,
-    MachinePlan, OrbitPlan, Rotor, StudyLimit, Subject,
+    Analysis, EnginePlan, FilmMethod, FilmModel, FilmSettings, HeatPlan, LinearSolver, Machine,
+    MachineBearing, MachinePlan, OrbitPlan, Rotor, StudyLimit, Subject,
 };
 use std::f64::consts::PI;
 
@@ -152,6 +152,7 @@ pub fn study(
         subject: Subject::Machine(Box::new(plan)),
         film: FilmSettings {
             model,
+            method: FilmMethod::FiniteVolume,
             grid,
             linear_solver: LinearSolver::Auto,
             relative_error_target: None,

@@ -2,11 +2,12 @@
 
 use super::Checker;
 use crate::film_models::{refusal_of_bearing, scheme};
-use crate::film_tables::{StoredFilms, closure_name};
+use crate::film_tables::{Scheme, StoredFilms, closure_name};
 use crate::input::error::InputError;
 use crate::input::schema::Mode;
-use crate::input::study::{DatabasePlan, FilmModel, FilmSettings, LinearSolver};
+use crate::input::study::{DatabasePlan, FilmMethod, FilmModel, FilmSettings, LinearSolver};
 use crate::input::values::Value;
+use sommerfeld_database::superposition::SuperpositionRecipe;
 use sommerfeld_database::{DatabaseError, Recipe};
 use sommerfeld_film::{Bearing, Cavitation, Inlet};
 use std::fs;
@@ -135,6 +136,7 @@ impl Checker<'_> {
         }
         let settings = FilmSettings {
             model,
+            method: FilmMethod::FiniteVolume,
             grid: [0; 2],
             linear_solver: LinearSolver::Auto,
             relative_error_target: None,
@@ -179,33 +181,76 @@ impl Checker<'_> {
                 }
             },
         };
-        if self.text("film.inlet").as_deref() == Some("max-film-line") {
+        let starts_on_line = self.text("film.inlet").as_deref() == Some("max-film-line");
+        let width_ratios = self.width_ratios()?;
+        let samples = self.count("database.samples");
+        let target = self.number("database.target")?;
+        let last = self.number("database.last_eccentricity");
+        if self.text("database.scheme")? == Scheme::Superposition.name() {
+            return self.superposition_plan(closure, starts_on_line, width_ratios);
+        }
+        if starts_on_line {
             let message = "a combined database holds films that go around: a line at the widest gap has no \
                            place where the gap opens";
             let error = self.error_at("film.inlet", message).allowing("\"cyclic\"");
             self.errors.push(error);
             return None;
         }
-        let width_ratios = self.width_ratios()?;
-        let count = |checker: &Self, path: &str| match checker.value(path) {
-            Some(Value::Integer(number)) => u64::try_from(number).ok(),
-            _ => None,
-        };
+        let usual = Recipe::new(closure, width_ratios[0]);
         let recipe = Recipe {
-            closure,
-            inlet: Inlet::Cyclic,
             width_ratios,
-            target: self.number("database.target")?,
-            last_eccentricity: self.number("database.last_eccentricity")?,
-            samples: usize::try_from(count(self, "database.samples")?).ok()?,
-            seed: count(self, "database.seed")?,
+            target,
+            last_eccentricity: last.unwrap_or(usual.last_eccentricity),
+            samples: samples.unwrap_or(usual.samples),
+            seed: self
+                .count("database.seed")
+                .map_or(usual.seed, |seed| seed as u64),
+            ..usual
         };
         if let Err(error) = recipe.check() {
             let error = self.error_at("database", error.to_string());
             self.errors.push(error);
             return None;
         }
-        Some(DatabasePlan { recipe })
+        Some(DatabasePlan::Combined(recipe))
+    }
+
+    /// What the paper's database is built from.
+    fn superposition_plan(
+        &mut self,
+        closure: Cavitation,
+        starts_on_line: bool,
+        [narrow, wide]: [f64; 2],
+    ) -> Option<DatabasePlan> {
+        if narrow != wide {
+            let message = "a database of the scheme superposition holds one width over diameter";
+            let error = self.error_at(RATIOS, message);
+            self.errors.push(error.hinting("build one for each"));
+            return None;
+        }
+        let usual = SuperpositionRecipe::aligned(1.0 / narrow);
+        let last = self.number("database.last_eccentricity");
+        let last = last.unwrap_or(usual.eccentricities[1]);
+        Some(DatabasePlan::Superposition(SuperpositionRecipe {
+            eccentricities: [usual.eccentricities[0], last],
+            cavitation: closure,
+            wedge_inlet: match starts_on_line {
+                true => Inlet::MaxFilmLine { pressure: 0.0 },
+                false => Inlet::Cyclic,
+            },
+            node_error_target: self.number("database.target")?,
+            // The samples reach as far as the nodes.
+            smallest_gap: 1.0 - last,
+            samples: self.count("database.samples").unwrap_or(usual.samples),
+            ..usual
+        }))
+    }
+
+    fn count(&self, path: &str) -> Option<usize> {
+        match self.value(path)? {
+            Value::Integer(number) => usize::try_from(number).ok(),
+            _ => None,
+        }
     }
 
     /// Smallest and largest width over diameter: as given, or that of the bearing.

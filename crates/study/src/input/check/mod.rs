@@ -26,12 +26,14 @@ use super::keys::KEYS;
 use super::read::{Entries, Entry, MOST_ERRORS, Reading};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
-    Analysis, Compared, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
+    Analysis, Compared, FilmMethod, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit,
+    input_hash,
 };
 use super::values::{Value, default_value, not_built};
 use crate::film_tables::StoredFilms;
 use grooves::DrillingKeys;
 use sommerfeld_bearing::PressureCycle;
+use sommerfeld_film::vogelpohl;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -468,7 +470,8 @@ impl Checker<'_> {
         let Value::Grid(grid) = self.value("film.grid")? else {
             return None;
         };
-        if model.is_field() {
+        let method = self.film_method(grid)?;
+        if model.is_field() && method == FilmMethod::FiniteVolume {
             self.check_grid_memory(grid);
         }
         let linear_solver = match self.text("film.linear_solver")?.as_str() {
@@ -477,6 +480,7 @@ impl Checker<'_> {
         };
         Some(FilmSettings {
             model,
+            method,
             grid,
             linear_solver,
             relative_error_target: self.number("film.relative_error_target"),
@@ -511,6 +515,55 @@ impl Checker<'_> {
             self.warnings.push(note);
         }
         compare
+    }
+
+    /// How the film is solved; the paper's method is for its own problem alone.
+    fn film_method(&mut self, grid: [usize; 2]) -> Option<FilmMethod> {
+        if self.text("film.method")? != FilmMethod::VogelpohlFdm.name() {
+            return Some(FilmMethod::FiniteVolume);
+        }
+        let mut errors = Vec::new();
+        if self.mode != Mode::Dimensionless {
+            let what = format!(
+                "the analysis {} has no method vogelpohl-fdm",
+                self.mode.name()
+            );
+            let error = self
+                .error_at("film.method", what)
+                .allowing("\"finite-volume\"");
+            errors
+                .push(error.hinting(
+                    "it solves the analysis \"film\" with operation.dimensionless = true",
+                ));
+        } else {
+            if self
+                .text("film.cavitation")
+                .is_some_and(|closure| closure != "reynolds")
+            {
+                let path = if self.entry("film.cavitation").is_some() {
+                    "film.cavitation"
+                } else {
+                    "film.method"
+                };
+                let what = "the method vogelpohl-fdm sets negative pressures to 0 as it iterates";
+                let error = self.error_at(path, what).of_key("film.cavitation");
+                errors.push(error.allowing("\"reynolds\""));
+            }
+            if self.entry("film.relative_error_target").is_some() {
+                let what = "the method vogelpohl-fdm has no error target";
+                let error = self.error_at("film.relative_error_target", what);
+                errors.push(error.hinting("take it out; the option --verify gives error bars"));
+            }
+            let fewest = vogelpohl::FEWEST_INTERVALS;
+            if (0..2).any(|k| grid[k] < fewest[k]) {
+                let what = "the method vogelpohl-fdm needs more intervals";
+                let error = self.error_at("film.grid", what);
+                errors.push(error.allowing(format!("at least [{}, {}]", fewest[0], fewest[1])));
+            }
+        }
+        let is_right = errors.is_empty();
+        self.errors.extend(errors);
+        is_right.then_some(FilmMethod::VogelpohlFdm)
     }
 
     /// Refuses a grid whose direct solution does not fit into the memory of usual machines: it is

@@ -1,0 +1,193 @@
+//! Splines through the nodes of one drive, and what they give between them.
+
+use super::Drive;
+use super::build::FIGURES;
+use super::tilt_box;
+use crate::axis::Axis;
+use crate::error::DatabaseError;
+use crate::spline::{End, coefficients, fit, weights};
+
+/// Interpolated side by side: logarithm of the size, four shares of it, logarithm of the peak over it.
+const LANES: usize = 6;
+
+/// Nodes along the three axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Shape {
+    pub counts: [usize; 3],
+}
+
+impl Shape {
+    pub(super) fn of(axes: &[Axis; 3]) -> Self {
+        Self {
+            counts: axes.each_ref().map(Axis::count),
+        }
+    }
+
+    pub(super) fn nodes(&self) -> usize {
+        self.counts.iter().product()
+    }
+
+    /// Indices along the axes of a node.
+    pub(super) fn place(&self, index: usize) -> [usize; 3] {
+        let [_, n_share, n_transverse] = self.counts;
+        let row = index / n_transverse;
+        [row / n_share, row % n_share, index % n_transverse]
+    }
+
+    pub(super) fn index(&self, [e, u, d]: [usize; 3]) -> usize {
+        (e * self.counts[1] + u) * self.counts[2] + d
+    }
+}
+
+/// Integrals at a state with derivatives by relative eccentricity, tilt along and tilt across.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Looked {
+    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps.
+    pub integrals: [f64; 4],
+    /// Their derivatives.
+    pub slopes: [[f64; 3]; 4],
+    /// Largest `Pi`; of the wedge over eps.
+    pub peak: f64,
+}
+
+/// Coefficients of the splines of one drive.
+#[derive(Debug, Clone)]
+pub(super) struct Fitted {
+    extents: [usize; 3],
+    coefficients: Vec<f64>,
+}
+
+impl Fitted {
+    /// Splines through the integrals and peaks at the nodes.
+    pub(super) fn through(
+        drive: Drive,
+        axes: &[Axis; 3],
+        shape: Shape,
+        nodes: &[[f64; FIGURES]],
+    ) -> Result<Self, DatabaseError> {
+        let per_eccentricity = shape.counts[1] * shape.counts[2];
+        let mut values = Vec::with_capacity(shape.nodes() * LANES);
+        for (index, node) in nodes.iter().enumerate() {
+            let eps = axes[0].value(index / per_eccentricity);
+            let drive = if drive == Drive::Wedge { eps } else { 1.0 };
+            let size = node[..4]
+                .iter()
+                .map(|value| value * value)
+                .sum::<f64>()
+                .sqrt();
+            values.push((size / drive).ln());
+            values.extend(node[..4].iter().map(|value| value / size));
+            values.push((node[4] / size).ln());
+        }
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(DatabaseError::Unsupported {
+                reason: "a film of the database carries nothing: raise the first eccentricity",
+            });
+        }
+        let extents = shape.counts.map(coefficients);
+        let ends = [End::NotAKnot; 2];
+        let [_, n_share, n_transverse] = shape.counts;
+        let values = fit(&values, n_share * n_transverse * LANES, ends)?;
+        let mut along = Vec::new();
+        for line in values.chunks_exact(n_share * n_transverse * LANES) {
+            along.extend(fit(line, n_transverse * LANES, ends)?);
+        }
+        let mut coefficients = Vec::new();
+        for line in along.chunks_exact(n_transverse * LANES) {
+            coefficients.extend(fit(line, LANES, ends)?);
+        }
+        Ok(Self {
+            extents,
+            coefficients,
+        })
+    }
+
+    /// Integrals and their derivatives; see [`super::SuperpositionTable::lookup`].
+    pub(super) fn lookup(&self, axes: &[Axis; 3], eps: f64, [along, across]: [f64; 2]) -> Looked {
+        let tilt = tilt_box::place(eps, along, across);
+        let [e, u, d] = [
+            Reach::new(&axes[0], eps),
+            Reach::new(&axes[1], tilt.shares[0]),
+            Reach::new(&axes[2], tilt.shares[1]),
+        ];
+        let (lanes, by_share) = self.sum(&[e, u, d]);
+        // By eccentricity at fixed tilts, the shares move too.
+        let [share, transverse] = tilt.slopes;
+        let slope = |lane: usize, which: usize| {
+            let own = if which == 0 { by_share[0][lane] } else { 0.0 };
+            own + by_share[1][lane] * share[which] + by_share[2][lane] * transverse[which]
+        };
+        let size = lanes[0].exp();
+        Looked {
+            integrals: std::array::from_fn(|k| size * lanes[k + 1]),
+            slopes: std::array::from_fn(|k| {
+                std::array::from_fn(|which| {
+                    size * (slope(k + 1, which) + lanes[k + 1] * slope(0, which))
+                })
+            }),
+            peak: size * lanes[5].exp(),
+        }
+    }
+
+    /// Lanes, and their derivatives by the values along the three axes.
+    fn sum(&self, [e, u, d]: &[Reach; 3]) -> ([f64; LANES], [[f64; LANES]; 3]) {
+        let mut value = [0.0; LANES];
+        let mut slopes = [[0.0; LANES]; 3];
+        let [_, n_share, n_transverse] = self.extents;
+        for i in 0..e.count {
+            for j in 0..u.count {
+                let row = ((e.first + i) * n_share + u.first + j) * n_transverse + d.first;
+                let mut line = [0.0; LANES];
+                let mut rise = [0.0; LANES];
+                for k in 0..d.count {
+                    let at = (row + k) * LANES;
+                    let node = &self.coefficients[at..at + LANES];
+                    for lane in 0..LANES {
+                        line[lane] += d.value[k] * node[lane];
+                        rise[lane] += d.slope[k] * node[lane];
+                    }
+                }
+                let weight = e.value[i] * u.value[j];
+                for lane in 0..LANES {
+                    value[lane] += weight * line[lane];
+                    slopes[0][lane] += e.slope[i] * u.value[j] * line[lane];
+                    slopes[1][lane] += e.value[i] * u.slope[j] * line[lane];
+                    slopes[2][lane] += weight * rise[lane];
+                }
+            }
+        }
+        (value, slopes)
+    }
+}
+
+/// Coefficients that a value reaches along one axis, with their weights.
+struct Reach {
+    first: usize,
+    count: usize,
+    value: [f64; 4],
+    slope: [f64; 4],
+}
+
+impl Reach {
+    /// Beyond the ends of an axis the curves go on straight.
+    fn new(axis: &Axis, value: f64) -> Self {
+        if axis.count() == 1 {
+            return Self {
+                first: 0,
+                count: 1,
+                value: [1.0, 0.0, 0.0, 0.0],
+                slope: [0.0; 4],
+            };
+        }
+        let (place, per_value) = axis.place(value);
+        let inside = place.clamp(0.0, (axis.count() - 1) as f64);
+        let found = weights(inside, axis.count());
+        let beyond = place - inside;
+        Self {
+            first: found.first,
+            count: 4,
+            value: std::array::from_fn(|k| found.value[k] + beyond * found.slope[k]),
+            slope: found.slope.map(|weight| weight * per_value),
+        }
+    }
+}
