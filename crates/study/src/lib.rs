@@ -2,7 +2,6 @@
 
 pub mod cases;
 pub mod database_files;
-mod film_models;
 pub mod film_tables;
 pub mod hdf5;
 pub mod input;

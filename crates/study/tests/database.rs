@@ -2,8 +2,9 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use serde_json::Value;
+use sommerfeld_database::{Recipe, Table};
 use sommerfeld_study::database_files;
-use sommerfeld_study::film_tables::StoredFilms;
+use sommerfeld_study::film_tables::{FilmTable, StoredFilms};
 use sommerfeld_study::input::study_from_text;
 use sommerfeld_study::output::summary;
 use sommerfeld_study::report::render;
@@ -373,4 +374,78 @@ fn fresh_states_keep_the_bound() {
     let found = database_files::check(&films().join("films/table.h5"), 200, 77).unwrap();
     assert!(found.is_kept(), "{found:?}");
     assert!(found.report.samples == 200 && found.stated <= found.bound);
+}
+
+/// A table that errs by more than it says it was built for is found out.
+#[test]
+fn a_bound_that_is_not_kept_is_found_out() {
+    let stored = StoredFilms::load("", &films().join("films/table.h5")).unwrap();
+    let FilmTable::Combined(table) = &stored.table else {
+        panic!("another table");
+    };
+    let boastful = Recipe {
+        target: 1e-5,
+        ..*table.recipe()
+    };
+    let table = Table::new(
+        boastful,
+        *table.axes(),
+        table.nodes().to_vec(),
+        *table.errors(),
+    );
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("table.h5");
+    table.unwrap().save(&path).unwrap();
+    let found = database_files::check(&path, 200, 3).unwrap();
+    assert!(!found.is_kept() && found.report.maximum > 1e-5);
+}
+
+/// The paper's scheme: built, shown, looked up, compared; its error is that of the sum, not of the table.
+#[test]
+fn a_superposition_is_built_and_compared() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = BUILD
+        .replace("target = 1e-2", "target = 1e-2\nscheme = \"superposition\"")
+        .replace("samples = 100", "samples = 8");
+    let ran = build(directory.path(), &text, 2);
+    let found = summary(&ran.results);
+    assert_eq!(found["status"], "converged", "{}", found["messages"]);
+    assert_eq!(found["scheme"], "superposition");
+    assert!(number(&found, "points") > 0.0);
+    let file = directory.path().join("films/table.h5");
+    assert!(database_files::info(&file).unwrap().contains("Phi_1V"));
+    fs::create_dir(directory.path().join("both")).unwrap();
+    fs::copy(
+        films().join("films/table.h5"),
+        directory.path().join("both/table.h5"),
+    )
+    .unwrap();
+    let film = "model = \"database\"\ndatabase = [\"films/table.h5\", \"both/table.h5\"]\n\
+        compare = [\"superposition\"]\n";
+    // Steady: wedge alone, so that nothing is added, and both agree.
+    let study = study_from_text(
+        "s.toml",
+        &study_text(BEARING, film, STEADY),
+        directory.path(),
+    );
+    let study = study.unwrap_or_else(|errors| panic!("{errors}"));
+    let found = summary(&solve(&study, &mut |_| ControlFlow::Continue(())).unwrap());
+    let compared = &found["comparison"]["superposition"];
+    assert_eq!(compared["status"], "converged", "{}", found["messages"]);
+    let off = compared["difference_percent"]["minimum_film_thickness_m"].as_f64();
+    assert!(off.unwrap().abs() < 3.0, "{off:?}");
+    assert!(
+        compared["notes"]
+            .to_string()
+            .contains("but not of their sum")
+    );
+    // Squeeze and wedge together: the sum errs by more than either table.
+    let duty = "[operation]\nspeed = \"2000 rpm\"\nrelative_eccentricity = 0.8\n\
+        relative_eccentricity_rate = \"60 1/s\"\n";
+    let text = format!("schema = 1\nanalysis = \"film\"\n{BEARING}{OIL}[film]\n{film}{duty}");
+    let study = study_from_text("s.toml", &text, directory.path()).unwrap();
+    let found = summary(&solve(&study, &mut |_| ControlFlow::Continue(())).unwrap());
+    let off = found["comparison"]["superposition"]["difference_percent"]["peak_film_pressure_pa"]
+        .as_f64();
+    assert!(off.unwrap().abs() > 5.0, "{off:?}");
 }

@@ -10,6 +10,7 @@ pub mod diagram_file;
 mod error;
 mod explain;
 mod files;
+pub(crate) mod film_models;
 mod heat;
 mod json_schema;
 mod keys;

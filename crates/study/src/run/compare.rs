@@ -8,9 +8,10 @@
 //! Another model has the temperature and the clearance of the study, and the rules of the film that it
 //! is made of. What it leaves out is noted; what it cannot do is refused with the reason.
 
+use super::film_models::adapted;
 use super::heat::with_clearance;
 use super::{ProgressCallback, header, solve_bearing};
-use crate::film_models::{adapted, refusal};
+use crate::input::film_models::refusal;
 use crate::input::{BearingCase, FilmModel, HeatPlan, Study, Subject};
 use crate::progress::ProgressEvent;
 use crate::results::{

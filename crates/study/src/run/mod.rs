@@ -5,6 +5,7 @@ mod compare;
 mod crew;
 mod cycle;
 mod database;
+mod film_models;
 mod heat;
 mod heat_field;
 mod inputs;
@@ -15,7 +16,6 @@ mod steady;
 mod sweep;
 mod turn;
 
-use crate::film_models::{databases_of, film_of};
 use crate::film_tables::{Scheme, closure_name};
 use crate::input::{
     BearingCase, Duty, FilmMethod, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study,
@@ -31,6 +31,7 @@ use crate::sanity;
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
 use database::{run_database, solve_database};
+use film_models::{databases_of, film_of};
 use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};

@@ -1,9 +1,9 @@
 //! Databases of films: those that a study looks up, and one that is to be built.
 
 use super::Checker;
-use crate::film_models::{refusal_of_bearing, scheme};
 use crate::film_tables::{Scheme, StoredFilms, closure_name};
 use crate::input::error::InputError;
+use crate::input::film_models::{refusal_of_bearing, scheme};
 use crate::input::schema::Mode;
 use crate::input::study::{DatabasePlan, FilmMethod, FilmModel, FilmSettings, LinearSolver};
 use crate::input::values::Value;

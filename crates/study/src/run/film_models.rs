@@ -1,20 +1,16 @@
-//! Which film model can do what a study asks, and what it leaves out.
-//!
-//! Only the film on a grid takes every bearing. The others are made for a plain one: what they cannot
-//! answer is refused by name ([`refusal`]); what they have of their own, or are known to leave out, is put
-//! into the bearing that they are given, and told ([`adapted`]).
+//! The film of a case in the model of its study, and what a model takes a bearing to be.
 
-use crate::film_tables::{DatabaseFacts, Scheme, closure_name, holding};
-use crate::input::{BearingCase, Duty, FilmModel, FilmSettings, Study, Subject, TiltCondition};
-use sommerfeld_bearing::CycleTilt;
+use crate::film_tables::{DatabaseFacts, closure_name, holding};
+use crate::input::film_models::{scheme, stays_aligned};
+use crate::input::{BearingCase, FilmModel, FilmSettings, Study, Subject};
 use sommerfeld_film::{
-    Bearing, Cavitation, Elasticity, FilmError, FilmForce, FilmShear, FilmSolver, Finish, Inlet,
-    LongBearingFilm, MobilityFilm, OnlineFilm, ShortBearingFilm,
+    Bearing, Cavitation, FilmError, FilmForce, FilmShear, FilmSolver, LongBearingFilm,
+    MobilityFilm, OnlineFilm, ShortBearingFilm,
 };
 use sommerfeld_oil::{CompressionLaw, Lubricant, PressureLaw, ShearThinning};
 
 /// The film of a case in the model of the settings.
-pub(crate) fn film_of(
+pub(super) fn film_of(
     case: &BearingCase,
     settings: &FilmSettings,
 ) -> Result<Box<dyn FilmForce + Send>, FilmError> {
@@ -44,7 +40,7 @@ pub(crate) fn film_of(
 }
 
 /// The databases that the films of a study are looked up in, each once.
-pub(crate) fn databases_of(study: &Study) -> Vec<DatabaseFacts> {
+pub(super) fn databases_of(study: &Study) -> Vec<DatabaseFacts> {
     let model = study.film.model;
     if !model.is_looked_up() {
         return Vec::new();
@@ -63,82 +59,6 @@ pub(crate) fn databases_of(study: &Study) -> Vec<DatabaseFacts> {
     found
 }
 
-/// The scheme of the databases that a model looks up.
-pub(crate) const fn scheme(model: FilmModel) -> Scheme {
-    match model {
-        FilmModel::Field
-        | FilmModel::ShortBearing
-        | FilmModel::Mobility
-        | FilmModel::LongBearing
-        | FilmModel::Online
-        | FilmModel::Database => Scheme::Combined,
-        FilmModel::Superposition => Scheme::Superposition,
-    }
-}
-
-/// Why a model cannot do what a case asks; `None` where it can.
-pub(crate) fn refusal(
-    model: FilmModel,
-    case: &BearingCase,
-    settings: &FilmSettings,
-) -> Option<String> {
-    if model.is_field() {
-        return None;
-    }
-    if !stays_aligned(&case.duty) {
-        return Some("it has no tilt".to_owned());
-    }
-    refusal_of_bearing(model, &case.bearing, settings)
-}
-
-/// [`refusal`] of the bearing alone.
-pub(crate) fn refusal_of_bearing(
-    model: FilmModel,
-    bearing: &Bearing,
-    settings: &FilmSettings,
-) -> Option<String> {
-    if model.is_field() {
-        return None;
-    }
-    if !model.overlooks_feeds() && !bearing.feeds.is_empty() {
-        return Some(
-            "it has no grooves and holes; film.feeds = \"left-out\" leaves them out of every model"
-                .to_owned(),
-        );
-    }
-    if let Some(reason) = not_plain(bearing) {
-        return Some(reason.to_owned());
-    }
-    let is_at_zero = (bearing.ambient_pressure, bearing.cavitation_pressure) == (0.0, 0.0);
-    if !model.overlooks_feeds() && !is_at_zero {
-        return Some("it needs ambient and cavitation pressure 0".to_owned());
-    }
-    if model.is_looked_up() {
-        return holding(&settings.databases, scheme(model), bearing).err();
-    }
-    None
-}
-
-/// What of a bearing only the film on a grid can follow.
-fn not_plain(bearing: &Bearing) -> Option<&'static str> {
-    if bearing.finish != Finish::Smooth {
-        return Some("it has smooth surfaces alone");
-    }
-    if bearing.elasticity != Elasticity::Rigid {
-        return Some("it has a rigid shell alone");
-    }
-    if !bearing.is_plain() {
-        return Some("its bore and journal are cylinders");
-    }
-    if bearing.ambient_pressure != bearing.cavitation_pressure {
-        return Some("it needs equal ambient and cavitation pressure");
-    }
-    if bearing.inlet != Inlet::Cyclic {
-        return Some("it has no inlet on the line of the widest gap");
-    }
-    None
-}
-
 /// The oil as it is at ambient pressure and low shear, at every temperature.
 fn at_ambient(oil: &Lubricant) -> Lubricant {
     Lubricant {
@@ -150,7 +70,7 @@ fn at_ambient(oil: &Lubricant) -> Lubricant {
 }
 
 /// The case as a model takes it, and in which ways that is another than given.
-pub(crate) fn adapted(
+pub(super) fn adapted(
     model: FilmModel,
     mut case: BearingCase,
     settings: &FilmSettings,
@@ -186,13 +106,4 @@ pub(crate) fn adapted(
         notes.push("oil at ambient pressure and low shear".to_owned());
     }
     (case, notes)
-}
-
-/// Whether the journal cannot tilt in this duty.
-fn stays_aligned(duty: &Duty) -> bool {
-    match duty {
-        Duty::State(state) => state.tilt == [0.0; 2] && state.tilt_rate == [0.0; 2],
-        Duty::Load(load) => load.tilt == TiltCondition::Fixed([0.0; 2]),
-        Duty::Cycle(duty) => duty.cycle.tilt == CycleTilt::Aligned,
-    }
 }
