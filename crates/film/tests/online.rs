@@ -5,9 +5,11 @@ mod common;
 use common::conditions;
 use common::direct::gumbel_force;
 use sommerfeld_film::closed_form::infinitely_long;
+use sommerfeld_film::dimensionless::{DimensionlessFilm, refine_dimensionless};
+use sommerfeld_film::spectral::{AlignedFilm, Precision};
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmError, FilmForce, FilmShear,
-    FilmSolver, JournalState, Linearised, OnlineFilm, ShortBearingFilm, Step,
+    FilmSolver, Inlet, JournalState, Linearised, OnlineFilm, Outcome, ShortBearingFilm, Step,
 };
 use sommerfeld_oil::{CompressionLaw, Lubricant, PressureLaw};
 use std::f64::consts::{PI, TAU};
@@ -103,7 +105,8 @@ fn half_film_has_the_force_of_a_direct_solution() {
 }
 
 /// Derivatives of the discrete force, by central differences of the force itself.
-fn compare_tangents(film: &mut OnlineFilm, bar: f64) {
+fn compare_tangents(film: &mut OnlineFilm, step: f64, bar: f64) {
+    let mut worst = [0.0_f64; 2];
     let bearing = film.bearing().clone();
     let c = bearing.radial_clearance;
     for (eps, direction) in [(0.0, 0.4), (0.2, 2.9), (0.7, 4.5), (0.93, 1.3), (0.93, 5.9)] {
@@ -114,34 +117,174 @@ fn compare_tangents(film: &mut OnlineFilm, bar: f64) {
             for column in 0..2 {
                 let mut ends = [[0.0; 2]; 2];
                 let mut rates = [[0.0; 2]; 2];
-                let shift = 1e-5 * (1.0 - eps);
+                let shift = step * (1.0 - eps);
                 for (end, sign) in [1.0, -1.0].into_iter().enumerate() {
                     let mut moved = state;
                     moved.position[column] += sign * shift * c;
                     ends[end] = react(film, &moved).reaction.film_force;
                     let mut moved = state;
-                    moved.velocity[column] += sign * 1e-5 * c * SPEED;
+                    moved.velocity[column] += sign * step * c * SPEED;
                     rates[end] = react(film, &moved).reaction.film_force;
                 }
                 for row in 0..2 {
                     let by_position = (ends[0][row] - ends[1][row]) / (2.0 * shift * c);
                     let off = (seen.tangent.by_position[row][column] - by_position).abs();
                     let relative = off * c * (1.0 - eps) / scale;
+                    worst[0] = worst[0].max(relative);
                     assert!(relative < bar, "eps {eps} {place} by position: {relative}");
-                    let by_rate = (rates[0][row] - rates[1][row]) / (2e-5 * c * SPEED);
+                    let by_rate = (rates[0][row] - rates[1][row]) / (2.0 * step * c * SPEED);
                     let off = (seen.tangent.by_rate[row][column] - by_rate).abs();
                     let relative = off * c * SPEED / scale;
+                    worst[1] = worst[1].max(relative);
                     assert!(relative < bar, "eps {eps} {place} by rate: {relative}");
                 }
             }
         }
     }
+    println!("by position {:.1e}, by rate {:.1e}", worst[0], worst[1]);
 }
 
 #[test]
 fn tangents_of_the_half_film_equal_differences() {
     for width_ratio in [0.4, 1.0] {
-        compare_tangents(&mut online(&bearing(width_ratio, Cavitation::Gumbel)), 1e-6);
+        compare_tangents(
+            &mut online(&bearing(width_ratio, Cavitation::Gumbel)),
+            1e-5,
+            1e-6,
+        );
+    }
+}
+
+/// They are those at fixed fronts, which the force does not feel as far as the fronts are right.
+#[test]
+fn tangents_of_the_fitted_film_equal_differences() {
+    for width_ratio in [0.4, 1.0] {
+        let mut film = online(&bearing(width_ratio, Cavitation::Reynolds));
+        compare_tangents(&mut film, 2e-3, 1e-3);
+    }
+}
+
+/// Rows of an independent solver; the bar is that of the table.
+#[test]
+fn fitted_film_meets_wedge_and_squeeze_together() {
+    let rows = common::reference_rows("combined-wedge-squeeze", "reference.csv");
+    assert!(!rows.is_empty());
+    for row in rows {
+        let (d_over_b, eps, ratio) = (row[0], row[1], row[2]);
+        let exact = [row[3], row[4]];
+        for precision in [Precision::OnLine, Precision::Fine] {
+            let mut film = AlignedFilm::new(Cavitation::Reynolds, 1.0 / d_over_b, precision)
+                .expect("a plain film");
+            let (seen, outcome) = film.scaled_force(eps, [2.0 * ratio, 1.0]).expect("open");
+            assert_eq!(outcome, Outcome::Converged);
+            let error = difference(seen.force, exact) / size(exact);
+            println!("D/B {d_over_b} eps {eps} q {ratio} {precision:?}: {error:.1e}");
+            assert!(
+                error < 1.5e-3,
+                "D/B {d_over_b} eps {eps} q {ratio}: {error}"
+            );
+        }
+    }
+}
+
+/// The film on a grid, extrapolated, with the error it states.
+#[test]
+fn fitted_film_has_the_force_of_a_grid() {
+    for (width_ratio, eps, squeeze, wedge) in [
+        (0.25, 0.9, 0.0, 1.0),
+        (0.5, 0.1, 0.3, 1.0),
+        (0.75, 0.6, -0.2, 1.0),
+        (0.75, 0.95, 0.02, 1.0),
+        (1.5, 0.6, -1.0, 0.0),
+    ] {
+        let problem = DimensionlessFilm {
+            d_over_b: 1.0 / width_ratio,
+            relative_eccentricity: eps,
+            tilt_gamma: 0.0,
+            tilt_delta: 0.0,
+            wedge,
+            squeeze,
+            cavitation: Cavitation::Reynolds,
+            inlet: Inlet::Cyclic,
+        };
+        let grid = refine_dimensionless(&problem, [96, 24], 3e-4).expect("open");
+        assert_eq!(grid.outcome, Outcome::Converged);
+        let exact = [grid.integrals.p_cos, grid.integrals.p_sin];
+        let known = size([grid.error.p_cos, grid.error.p_sin]) / size(exact);
+        for (precision, bar) in [(Precision::OnLine, 2e-4), (Precision::Fine, 2e-5)] {
+            let mut film =
+                AlignedFilm::new(Cavitation::Reynolds, width_ratio, precision).expect("plain");
+            let (seen, _) = film
+                .scaled_force(eps, [2.0 * squeeze, wedge])
+                .expect("open");
+            let error = difference(seen.force, exact) / size(exact);
+            println!("B/D {width_ratio} eps {eps} {precision:?}: {error:.1e}, grid {known:.1e}");
+            assert!(
+                error < known + bar,
+                "B/D {width_ratio} eps {eps}: {error} {known}"
+            );
+        }
+    }
+}
+
+/// The bars of `OnlineFilm::aligned` and of `Precision::Fine`, over all directions: the fine film is
+/// within 2e-5 of a finer one (`fitted_film` tests), the film on line close to the fine one.
+#[test]
+fn on_line_and_fine_films_agree() {
+    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds] {
+        for width_ratio in [0.25, 0.5, 0.75, 1.0, 1.5] {
+            let new = |precision| {
+                AlignedFilm::new(cavitation, width_ratio, precision).expect("a plain film")
+            };
+            let (mut film, mut fine) = (new(Precision::OnLine), new(Precision::Fine));
+            for eps in [0.0, 0.3, 0.6, 0.8, 0.9, 0.95, 0.99] {
+                let mut worst = 0.0_f64;
+                for k in 0..24 {
+                    let direction = 0.1 + TAU * f64::from(k) / 24.0;
+                    let motion = [direction.cos(), direction.sin()];
+                    let (seen, outcome) = film.force(eps, motion).expect("open");
+                    let (exact, fine_outcome) = fine.force(eps, motion).expect("open");
+                    assert_eq!(outcome, Outcome::Converged, "{eps} {direction}");
+                    assert_eq!(fine_outcome, Outcome::Converged, "{eps} {direction}");
+                    worst = worst.max(difference(seen.force, exact.force) / size(exact.force));
+                }
+                println!("{cavitation:?} B/D {width_ratio} eps {eps}: {worst:.1e}");
+                let bar = match cavitation {
+                    Cavitation::Gumbel if eps < 0.96 => 4e-5,
+                    Cavitation::Gumbel => 1.5e-4,
+                    _ if eps < 0.96 => 2e-4,
+                    _ => 3e-4,
+                };
+                assert!(
+                    worst < bar,
+                    "{cavitation:?} B/D {width_ratio} eps {eps}: {worst}"
+                );
+            }
+        }
+    }
+}
+
+/// Derivatives of the scaled force by its own variables.
+#[test]
+fn scaled_derivatives_equal_differences() {
+    let mut film =
+        AlignedFilm::new(Cavitation::Gumbel, 0.5, Precision::OnLine).expect("a plain film");
+    let (eps, motion) = (0.7, [0.3, 1.2]);
+    let mut force = |eps: f64, motion: [f64; 2]| film.scaled_force(eps, motion).expect("open").0;
+    let seen = force(eps, motion);
+    let h = 1e-5;
+    let slope = |plus: [f64; 2], minus: [f64; 2]| [0, 1].map(|i| (plus[i] - minus[i]) / (2.0 * h));
+    let by_eps = slope(force(eps + h, motion).force, force(eps - h, motion).force);
+    assert!(difference(by_eps, seen.by_eccentricity) < 1e-6 * size(by_eps));
+    for column in 0..2 {
+        let at = |sign: f64| {
+            let mut moved = motion;
+            moved[column] += sign * h;
+            moved
+        };
+        let by_motion = slope(force(eps, at(1.0)).force, force(eps, at(-1.0)).force);
+        let expected = seen.by_motion.map(|row| row[column]);
+        assert!(difference(by_motion, expected) < 1e-6 * size(seen.force));
     }
 }
 
@@ -171,7 +314,12 @@ fn compare_figures(cavitation: Cavitation, states: &[(f64, f64)], bar: f64) {
         close("flow", flow[0][0], flow[1][0], flow[1][0]);
         close("flow", flow[0][1], flow[1][1], flow[1][1]);
         let share = [summary.full_film_share, expected.full_film_share];
-        close("share", share[0], share[1], 1.0);
+        // A grid counts cells: of two fronts, each may be off by one.
+        let cells = (share[0] - share[1]).abs() * 256.0;
+        assert!(
+            cells < 2.0,
+            "eps {eps} direction {direction} share: {share:?}"
+        );
         let least = [
             summary.minimum_film_thickness,
             expected.minimum_film_thickness,
@@ -213,13 +361,25 @@ fn figures_of_the_half_film_are_those_of_a_grid() {
 }
 
 #[test]
+fn figures_of_the_fitted_film_are_those_of_a_grid() {
+    let states = [(0.3, 0.5), (0.6, 4.7), (0.9, 4.7), (0.9, 5.8), (0.8, 2.8)];
+    compare_figures(Cavitation::Reynolds, &states, 3e-3);
+}
+
+#[test]
 fn force_is_homogeneous_mirrored_and_turns_with_the_frame() {
-    let bearing = bearing(0.5, Cavitation::Gumbel);
-    let mut film = online(&bearing);
+    // Fronts are settled to a tolerance.
+    for (cavitation, exact) in [(Cavitation::Gumbel, 1e-11), (Cavitation::Reynolds, 1e-5)] {
+        compare_motions(&bearing(0.5, cavitation), exact);
+    }
+}
+
+fn compare_motions(bearing: &Bearing, exact: f64) {
+    let mut film = online(bearing);
     for (eps, direction) in [(0.0, 1.0), (0.5, 2.0), (0.9, 4.0), (0.95, 0.3)] {
-        let state = moving(&bearing, eps, 0.3, direction);
+        let state = moving(bearing, eps, 0.3, direction);
         let force = react(&mut film, &state).reaction.film_force;
-        let bar = 1e-11 * size(force);
+        let bar = exact * size(force);
         let faster = JournalState {
             velocity: state.velocity.map(|v| 3.0 * v),
             journal_speed: 3.0 * state.journal_speed,
@@ -238,14 +398,18 @@ fn force_is_homogeneous_mirrored_and_turns_with_the_frame() {
         let seen = react(&mut film, &mirrored).reaction.film_force;
         assert!(difference(seen, [force[0], -force[1]]) < bar);
         for place in [1.9, 3.6, 5.5] {
-            let seen = react(&mut film, &moving(&bearing, eps, place, direction));
+            let seen = react(&mut film, &moving(bearing, eps, place, direction));
             let (sin, cos) = f64::sin_cos(place - 0.3);
             let turned = [
                 cos * force[0] - sin * force[1],
                 sin * force[0] + cos * force[1],
             ];
             // The pressures of a journal in the centre are cut a hair off, between other nodes.
-            let bar = if eps == 0.0 { 1e-6 * size(force) } else { bar };
+            let bar = if eps == 0.0 {
+                bar.max(1e-6 * size(force))
+            } else {
+                bar
+            };
             assert!(
                 difference(seen.reaction.film_force, turned) < bar,
                 "{eps} {place}"
@@ -254,26 +418,42 @@ fn force_is_homogeneous_mirrored_and_turns_with_the_frame() {
     }
 }
 
-/// Power goes into the film, whatever the motion.
+/// Power goes into the film, whatever the motion; what a motion along one axis does along another, the
+/// other does along the one, where the film is between fronts that it chose.
 #[test]
-fn motion_is_always_resisted() {
-    let bearing = bearing(0.6, Cavitation::Gumbel);
-    let mut film = online(&bearing);
-    for eps in [0.0, 0.4, 0.8, 0.97] {
-        for k in 0..24 {
-            let direction = TAU * f64::from(k) / 24.0;
-            let state = moving(&bearing, eps, 0.0, direction);
-            let [x, y] = react(&mut film, &state).reaction.film_force;
-            let power = x * direction.cos() + y * direction.sin();
-            assert!(power < 0.0, "{eps} {direction}: {power}");
+fn motion_is_resisted_and_reciprocal() {
+    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds] {
+        let bearing = bearing(0.6, cavitation);
+        let mut film = online(&bearing);
+        for eps in [0.0, 0.4, 0.8, 0.97] {
+            for k in 0..24 {
+                let direction = TAU * f64::from(k) / 24.0;
+                let state = moving(&bearing, eps, 0.0, direction);
+                let seen = react(&mut film, &state);
+                let [x, y] = seen.reaction.film_force;
+                let power = x * direction.cos() + y * direction.sin();
+                assert!(power < 0.0, "{eps} {direction}: {power}");
+                let rate = seen.tangent.by_rate;
+                if cavitation == Cavitation::Reynolds {
+                    let largest = rate[0][0].abs().max(rate[1][1].abs());
+                    let off = (rate[0][1] - rate[1][0]).abs() / largest;
+                    assert!(off < 5e-4, "{eps} {direction}: {off}");
+                }
+            }
         }
     }
 }
 
 #[test]
 fn narrow_bearings_tend_to_the_short_one() {
+    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds] {
+        tends_to_short(cavitation);
+    }
+}
+
+fn tends_to_short(cavitation: Cavitation) {
     let error = |width_ratio: f64| {
-        let bearing = bearing(width_ratio, Cavitation::Gumbel);
+        let bearing = bearing(width_ratio, cavitation);
         let mut film = online(&bearing);
         let mut short = ShortBearingFilm::new(&bearing, VISCOSITY).expect("a plain bearing");
         let states = [(0.5, 4.7), (0.8, 0.6), (0.8, 3.0)];
@@ -340,7 +520,7 @@ fn what_it_does_not_have_is_refused_by_name() {
     refused(
         &with(&|b| b.cavitation = Cavitation::MassConserving),
         &oil(),
-        "closures",
+        "remembers",
     );
     refused(&with(&|b| b.width = 0.0), &oil(), "positive");
     let hole = Feed {

@@ -11,6 +11,8 @@
 //! References: A. Sommerfeld, Z. Math. Phys. 50 (1904) 97; G. Vogelpohl, VDI-Forschungsheft 386 (1937)
 //! (pressure times H^1.5).
 
+use std::f64::consts::TAU;
+
 /// Modulus of the substitution over the relative eccentricity.
 const MODULUS: f64 = 0.82;
 
@@ -135,8 +137,7 @@ impl Substitution {
     /// theta of s in [-pi, pi], rad.
     pub(super) fn angle(&self, s: f64) -> f64 {
         let m = self.modulus.value;
-        let half = 0.5 * s;
-        2.0 * ((1.0 - m).sqrt() * half.sin()).atan2((1.0 + m).sqrt() * half.cos())
+        turned(s, [1.0 - m, 1.0 + m])
     }
 
     /// u/U, the inverse square root of H^3 ds/dtheta, and H, where s has this cosine.
@@ -145,6 +146,56 @@ impl Substitution {
         let d = 1.0 + self.modulus.value * cos;
         [self.rest.value.sqrt().sqrt() * d / (n * n.sqrt()), n / d]
     }
+}
+
+/// The substitution itself, over any number of turns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct SommerfeldAngle {
+    modulus: f64,
+    /// sqrt(1 - m^2).
+    root: f64,
+    /// N at cos s = 0 and its slope by cos s.
+    gap: [f64; 2],
+}
+
+impl SommerfeldAngle {
+    /// At a relative eccentricity, with a modulus of a share of it.
+    pub(super) fn new(eps: f64, share: f64) -> Self {
+        let modulus = share * eps;
+        Self {
+            modulus,
+            root: ((1.0 - modulus) * (1.0 + modulus)).sqrt(),
+            gap: [1.0 - eps * modulus, modulus - eps],
+        }
+    }
+
+    /// theta of s, rad.
+    pub(super) fn angle(&self, s: f64) -> f64 {
+        turned(s, [1.0 - self.modulus, 1.0 + self.modulus])
+    }
+
+    /// s of theta, rad.
+    pub(super) fn of(&self, angle: f64) -> f64 {
+        turned(angle, [1.0 + self.modulus, 1.0 - self.modulus])
+    }
+
+    /// cos and sin of theta, dtheta/ds and H where s has this sin and cos.
+    pub(super) fn at(&self, (sin, cos): (f64, f64)) -> ([f64; 2], f64, f64) {
+        let per_d = 1.0 / (1.0 + self.modulus * cos);
+        let stretch = self.root * per_d;
+        (
+            [(self.modulus + cos) * per_d, stretch * sin],
+            stretch,
+            (self.gap[0] + self.gap[1] * cos) * per_d,
+        )
+    }
+}
+
+/// The angle whose half has a tangent by the root of a ratio that of the half of another.
+fn turned(angle: f64, [above, below]: [f64; 2]) -> f64 {
+    let turns = (angle / TAU).round() * TAU;
+    let (sin, cos) = (0.5 * (angle - turns)).sin_cos();
+    2.0 * (above.sqrt() * sin).atan2(below.sqrt() * cos) + turns
 }
 
 #[cfg(test)]
@@ -173,6 +224,20 @@ mod tests {
             let bend = (root(s + d) - 2.0 * root(s) + root(s - d)) / (d * d);
             let exact = map.node(s.cos(), s.sin()).potential.value * root(s);
             assert!((bend / exact - 1.0).abs() < 1e-5, "{s}: {bend} {exact}");
+        }
+    }
+
+    #[test]
+    fn there_and_back_over_turns() {
+        let map = SommerfeldAngle::new(0.9, 0.95);
+        for angle in [-4.0, -1.0, 0.0, 3.0, 5.5] {
+            let s = map.of(angle);
+            assert!((map.angle(s) - angle).abs() < 1e-13);
+            let ([cos, sin], stretch, gap) = map.at(s.sin_cos());
+            assert!((cos - angle.cos()).abs() < 1e-13 && (sin - angle.sin()).abs() < 1e-13);
+            assert!((gap - (1.0 - 0.9 * angle.cos())).abs() < 1e-13);
+            let slope = (map.angle(s + 1e-6) - map.angle(s - 1e-6)) / 2e-6;
+            assert!((stretch - slope).abs() < 1e-8);
         }
     }
 

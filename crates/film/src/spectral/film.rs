@@ -8,11 +8,10 @@
 //! `+-(h/2) dp/dx` integrates by parts to half the couple `e x F`.
 //! Limits: cylinders, smooth and rigid; isoviscous; no feeds; ambient and cavitation pressure 0.
 //! Errors of the force over its size: see [`OnlineFilm::aligned`].
-//! References: numerics of the shapes in `across`, of the turn in `full_film`, of the cut in `cut`;
-//! friction: O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication, 1961, ch. 3.
+//! References: numerics of the closure `gumbel` in `half_film`, of `reynolds` in `fitted_film`; friction: O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication, 1961, ch. 3.
 
-use super::half_film::{AlignedFigures, AlignedForce, HalfFilm};
-use crate::bearing::{Bearing, Cavitation, Inlet};
+use super::aligned_film::{AlignedFilm, Precision};
+use crate::bearing::{Bearing, Inlet};
 use crate::elastic::Elasticity;
 use crate::finish::Finish;
 use crate::force::{
@@ -36,24 +35,10 @@ pub struct OnlineFilm {
     bearing: Bearing,
     lubricant: Lubricant,
     search: GapSearch,
-    kernel: Kernel,
+    kernel: AlignedFilm,
     last: Option<Seen>,
     updates: usize,
 }
-
-/// The film of the closure and the width.
-#[derive(Debug, Clone)]
-enum Kernel {
-    /// Half film of a bearing up to [`NARROW`].
-    Narrow(Box<HalfFilm<4, 4>>),
-    /// Half film of a wider one.
-    Wide(Box<HalfFilm<6, 6>>),
-}
-
-/// Largest width over diameter that four shapes are enough for.
-const NARROW: f64 = 0.6;
-/// Steps over half a turn.
-const STEPS: usize = 64;
 
 /// What was last linearised.
 #[derive(Debug, Clone)]
@@ -66,28 +51,15 @@ struct Seen {
     turned: f64,
 }
 
-impl Kernel {
-    fn force(&mut self, eps: f64, motion: [f64; 2]) -> AlignedForce {
-        match self {
-            Self::Narrow(film) => film.force(eps, motion),
-            Self::Wide(film) => film.force(eps, motion),
-        }
-    }
-
-    fn figures(&self) -> AlignedFigures {
-        match self {
-            Self::Narrow(film) => film.figures(),
-            Self::Wide(film) => film.figures(),
-        }
-    }
-}
-
 impl OnlineFilm {
     /// Film of an aligned journal; it refuses tilt.
     ///
-    /// Closure `gumbel`: the force is within 4e-5 of its size up to a relative eccentricity of 0.95 and
-    /// within 1.5e-4 up to 0.99, in all directions of motion and for B/D from 0.25 to 1.5
-    /// (`film/tests/online.rs`).
+    /// For B/D from 0.25 to 1.5 and all directions of motion the force is, by its size, within
+    /// - closure `gumbel`: 4e-5 up to a relative eccentricity of 0.95, 1.5e-4 up to 0.99;
+    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives by rate, those at the
+    ///   fronts that bound the film, are within 5e-4 of force over motion.
+    ///
+    /// (`film/tests/online.rs`)
     ///
     /// # Errors
     /// [`FilmError::Unsupported`] names what this film does not have: feeds, profiles, roughness, an
@@ -96,19 +68,8 @@ impl OnlineFilm {
     pub fn aligned(bearing: &Bearing, lubricant: &Lubricant) -> Result<Self, FilmError> {
         check_bearing(bearing)?;
         check_lubricant(lubricant)?;
-        let d_over_b = bearing.diameter / bearing.width;
-        let kernel = match bearing.cavitation {
-            Cavitation::Gumbel if d_over_b * NARROW >= 1.0 => {
-                Kernel::Narrow(Box::new(HalfFilm::new(d_over_b, STEPS)))
-            }
-            Cavitation::Gumbel => Kernel::Wide(Box::new(HalfFilm::new(d_over_b, STEPS))),
-            Cavitation::Reynolds | Cavitation::MassConserving => {
-                return Err(FilmError::Unsupported {
-                    reason: "the on-line film is solved for cavitation = \"gumbel\": use model = \
-                             \"field\" for other closures",
-                });
-            }
-        };
+        let width_ratio = bearing.width / bearing.diameter;
+        let kernel = AlignedFilm::new(bearing.cavitation, width_ratio, Precision::OnLine)?;
         Ok(Self {
             bearing: bearing.clone(),
             lubricant: lubricant.clone(),
@@ -152,13 +113,17 @@ impl OnlineFilm {
     }
 
     /// Force (N) and its tangent in the frame of the line of centres.
-    fn film_force(&mut self, local: &JournalState, units: &Units) -> ([f64; 2], Tangent) {
+    fn film_force(
+        &mut self,
+        local: &JournalState,
+        units: &Units,
+    ) -> Result<([f64; 2], Tangent, Outcome), FilmError> {
         let c = units.clearance;
         let eps = local.position[0] / c;
         let speed = local.mean_speed();
         let motion = [local.velocity[0] / c, local.velocity[1] / c - speed * eps];
         let unit = units.pressure * units.area * self.bearing.width / self.bearing.diameter;
-        let found = self.kernel.force(eps, motion);
+        let (found, outcome) = self.kernel.force(eps, motion)?;
         let mut tangent = Tangent::default();
         for row in 0..2 {
             let by_motion = found.by_motion[row];
@@ -169,17 +134,16 @@ impl OnlineFilm {
         }
         if eps < CENTRED {
             // Away from the centre across the frame is along it in a frame turned by a quarter.
-            let turned = self
-                .kernel
-                .force(eps, rotate(motion, -0.5 * std::f64::consts::PI));
+            let quarter = rotate(motion, -0.5 * std::f64::consts::PI);
+            let (turned, _) = self.kernel.force(eps, quarter)?;
             let [along, across] = turned.by_eccentricity;
             for (row, slope) in [-across, along].into_iter().enumerate() {
                 tangent.by_position[row][1] = unit / c * (slope + speed * found.by_motion[row][0]);
             }
             // The film that figures are asked of is that of the first frame.
-            self.kernel.force(eps, motion);
+            self.kernel.force(eps, motion)?;
         }
-        (found.force.map(|force| unit * force), tangent)
+        Ok((found.force.map(|force| unit * force), tangent, outcome))
     }
 
     /// Torque of full shear, N m, and half the couple of force and eccentricity.
@@ -237,7 +201,7 @@ impl FilmForce for OnlineFilm {
         } else {
             Frame::LineOfCentres.to_grid(state, turned)
         };
-        let (force, tangent) = self.film_force(&local, &units);
+        let (force, tangent, outcome) = self.film_force(&local, &units)?;
         let reaction = Reaction {
             film_force: force,
             ..Reaction::default()
@@ -259,7 +223,7 @@ impl FilmForce for OnlineFilm {
             reaction,
             tangent,
             settled: true,
-            outcome: Outcome::Converged,
+            outcome,
         })
     }
 

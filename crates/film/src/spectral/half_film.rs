@@ -11,23 +11,12 @@
 //! Reference: L. Gumbel, Monatsbl. Berl. Bez. VDI (1914) 87.
 
 use super::across::Across;
+use super::answer::AlignedForce;
 use super::around::Dual;
 use super::cut::{Rest, Stencil};
 use super::full_film::{FullFilm, Pair};
 
 mod figures;
-
-/// Force on the journal along and across the line of centres with its derivatives: `-int int p n
-/// dtheta dZ` for p over 12 eta R^2/c^2.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct AlignedForce {
-    /// Along the line of centres, towards the narrowest gap, and across it, 1/s.
-    pub force: [f64; 2],
-    /// Its derivative by relative eccentricity at fixed motion, 1/s.
-    pub by_eccentricity: [f64; 2],
-    /// Its derivative by the motion along and across, rows as the force.
-    pub by_motion: [[f64; 2]; 2],
-}
 
 /// Half film of an aligned journal, solved on `M` shapes and `G` lines on one half of the width.
 #[derive(Debug, Clone)]
@@ -44,19 +33,6 @@ pub(super) struct HalfFilm<const M: usize, const G: usize> {
 struct Line<const G: usize> {
     answer: Pair<G>,
     slope: Pair<G>,
-}
-
-/// What else a designer asks of an aligned film.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct AlignedFigures {
-    /// Largest pressure over 12 eta R^2/c^2, 1/s; it lies in the mid-plane.
-    pub peak: f64,
-    /// Its angle from the line of centres, rad.
-    pub peak_angle: f64,
-    /// `-int H^3 dp/dZ dtheta` at one end, 1/s: flow there over c R^2 D/B.
-    pub end_flow: f64,
-    /// Share of the surface under pressure.
-    pub full_film_share: f64,
 }
 
 /// A change of sign on a line: the positive node next to it, as a place on the whole ring of nodes,

@@ -9,12 +9,17 @@
 )]
 
 mod across;
+mod aligned_film;
+mod answer;
 mod around;
 mod cut;
 mod film;
+mod fitted_film;
 mod full_film;
 mod half_film;
+mod profile;
 mod quadrature;
 
+pub use aligned_film::{AlignedFilm, Precision};
+pub use answer::{AlignedFigures, AlignedForce};
 pub use film::OnlineFilm;
-pub use half_film::{AlignedFigures, AlignedForce};

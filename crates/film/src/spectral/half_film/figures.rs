@@ -1,6 +1,7 @@
 //! Peak, side flow and wetted share of an aligned film as last solved.
 
-use super::{AlignedFigures, HalfFilm, on_half};
+use super::{HalfFilm, on_half};
+use crate::spectral::answer::AlignedFigures;
 use crate::spectral::cut::{Stencil, integrate_positive, zero_of};
 use std::f64::consts::TAU;
 
