@@ -74,12 +74,21 @@ struct Compared {
 /// # Errors
 /// [`DatabaseError::NotSolved`] where a film to compare with cannot be solved.
 pub fn check(table: &Arc<Table>, samples: usize, seed: u64) -> Result<CheckReport, DatabaseError> {
-    let compared: Vec<Compared> = (0..samples)
-        .into_par_iter()
-        .map(|index| {
-            let place = draw(table.recipe(), seed, index);
-            compare(table, place)
-        })
+    check_at(table, &places(table.recipe(), samples, seed))
+}
+
+/// States drawn from a seed.
+pub(crate) fn places(recipe: &Recipe, samples: usize, seed: u64) -> Vec<Place> {
+    (0..samples)
+        .map(|index| draw(recipe, seed, index))
+        .collect()
+}
+
+/// Compares a table with films solved at given states.
+pub(crate) fn check_at(table: &Arc<Table>, places: &[Place]) -> Result<CheckReport, DatabaseError> {
+    let compared: Vec<Compared> = places
+        .par_iter()
+        .map(|place| compare(table, *place))
         .collect::<Result<_, _>>()?;
     Ok(report(&compared))
 }

@@ -2,7 +2,6 @@
 use super::*;
 use sommerfeld_film::Cavitation;
 use std::f64::consts::PI;
-
 #[test]
 fn build() {
     for (closure, target) in [
