@@ -1,7 +1,7 @@
 //! A table built: solved on all cores, interrupted and resumed, refined until it errs less than asked.
 //!
 //! A slice is one eccentricity of one width ratio: its films are solved one after the other, slices
-//! side by side, and every film is that of its node whatever was solved before, so a table does not
+//! side by side, and every film is that of its node whatever was solved before, so that a table does not
 //! depend on the number of cores or on interruptions. A level ends when all nodes are there. Then every
 //! second node along an axis is left out, and what a table without them says of them tells which axis
 //! errs; it gets a node in the middle of every two. Once no axis shows an error, films at states between
@@ -36,8 +36,9 @@ impl Progress for () {}
 
 /// What the attribute `scheme` of an unfinished file says.
 const UNFINISHED: &str = "combined-unfinished";
-/// Nodes along each axis to begin with; nine are the fewest of which every second one may be left out.
-const FIRST: [usize; 3] = [9, 17, 17];
+/// Nodes along each axis to begin with: nine are the fewest of which every second one may be left out;
+/// along the eccentricity the derivatives ask for more than the force.
+const FIRST: [usize; 3] = [9, 25, 17];
 /// Most nodes of a table.
 const MOST_NODES: usize = 1 << 20;
 /// Films that are solved at least every so often are kept.

@@ -41,7 +41,7 @@ fn pure_squeeze_of_butenschoen() {
     let rows = reference_rows("butenschoen-squeeze");
     let mut compared = 0;
     for width_ratio in [1.0, 0.5, 0.25, 0.125] {
-        let table = table(closure, width_ratio, 2e-3);
+        let table = table(closure, width_ratio, 4e-3);
         let bearing = unit_bearing(closure, width_ratio);
         let mut film = TableFilm::new(table, &bearing, VISCOSITY).unwrap();
         for row in rows.iter().filter(|row| row[0] == width_ratio) {
