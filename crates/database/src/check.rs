@@ -45,6 +45,8 @@ pub struct CheckReport {
     pub median: f64,
     /// Largest error of the peak pressure over itself.
     pub peak_maximum: f64,
+    /// Where that is.
+    pub peak_worst: Place,
     /// Difference of the derivatives to those of the solved film that 99 % of the states stay below.
     pub tangent_quantile_99: f64,
     /// Largest difference of the derivatives to central differences of the table, relative.
@@ -74,12 +76,25 @@ struct Compared {
 /// # Errors
 /// [`DatabaseError::NotSolved`] where a film to compare with cannot be solved.
 pub fn check(table: &Arc<Table>, samples: usize, seed: u64) -> Result<CheckReport, DatabaseError> {
-    let compared: Vec<Compared> = (0..samples)
-        .into_par_iter()
-        .map(|index| {
-            let place = draw(table.recipe(), seed, index);
-            compare(table, place)
-        })
+    check_at(table, &places(table.recipe(), samples, seed), true)
+}
+
+/// States drawn from a seed.
+pub(crate) fn places(recipe: &Recipe, samples: usize, seed: u64) -> Vec<Place> {
+    (0..samples)
+        .map(|index| draw(recipe, seed, index))
+        .collect()
+}
+
+/// Compares a table with films solved at given states; derivatives and dissipation only if asked for.
+pub(crate) fn check_at(
+    table: &Arc<Table>,
+    places: &[Place],
+    derivatives: bool,
+) -> Result<CheckReport, DatabaseError> {
+    let compared: Vec<Compared> = places
+        .par_iter()
+        .map(|place| compare(table, *place, derivatives))
         .collect::<Result<_, _>>()?;
     Ok(report(&compared))
 }
@@ -97,6 +112,7 @@ fn report(compared: &[Compared]) -> CheckReport {
     let largest = |of: fn(&Compared) -> f64| sorted(of).last().copied().unwrap_or(0.0);
     let errors = sorted(|c| c.error);
     let worst = compared.iter().max_by(|a, b| a.error.total_cmp(&b.error));
+    let peak_worst = compared.iter().max_by(|a, b| a.peak.total_cmp(&b.peak));
     CheckReport {
         samples: compared.len(),
         maximum: quantile(&errors, 1.0),
@@ -104,6 +120,7 @@ fn report(compared: &[Compared]) -> CheckReport {
         quantile_999: quantile(&errors, 0.999),
         median: quantile(&errors, 0.5),
         peak_maximum: largest(|c| c.peak),
+        peak_worst: peak_worst.map(|c| c.place).unwrap_or_default(),
         tangent_quantile_99: quantile(&sorted(|c| c.tangent), 0.99),
         difference_maximum: largest(|c| c.difference),
         dissipation_minimum: sorted(|c| c.dissipation).first().copied().unwrap_or(0.0),
@@ -135,18 +152,19 @@ fn draw(recipe: &Recipe, seed: u64, index: usize) -> Place {
 }
 
 /// The solver's film at a state.
-pub(crate) fn solved(
-    recipe: &Recipe,
-    place: &Place,
-    tangents: bool,
-) -> Result<Solved, DatabaseError> {
+fn solved(recipe: &Recipe, place: &Place, tangents: bool) -> Result<Solved, DatabaseError> {
     let case = FilmCase {
         eccentricity: place.eccentricity,
         width_ratio: place.width_ratio,
         closure: recipe.closure,
         line: false,
     };
-    let tolerance = recipe.tolerance();
+    // Derivatives of a film at its set are as coarse as its columns: they ask for more of these.
+    let tolerance = if tangents {
+        recipe.tolerance().min(FINE)
+    } else {
+        recipe.tolerance()
+    };
     AlignedFilm::new(case, tolerance)
         .solve(place.angle.abs(), tolerance, tangents)
         .ok_or(DatabaseError::NotSolved {
@@ -155,6 +173,9 @@ pub(crate) fn solved(
             width_ratio: place.width_ratio,
         })
 }
+
+/// Error of films whose derivatives are compared.
+const FINE: f64 = 1e-5;
 
 /// Radial clearance of the bearing that states are looked up in, whose radius is 1 m.
 const CLEARANCE: f64 = 1e-3;
@@ -186,9 +207,9 @@ const CONDITIONS: Conditions<'_> = Conditions {
     feed_pressures: None,
 };
 
-fn compare(table: &Arc<Table>, place: Place) -> Result<Compared, DatabaseError> {
+fn compare(table: &Arc<Table>, place: Place, derivatives: bool) -> Result<Compared, DatabaseError> {
     let recipe = table.recipe();
-    let solved = solved(recipe, &place, true)?;
+    let solved = solved(recipe, &place, derivatives)?;
     let side = 1.0_f64.copysign(place.angle);
     let mirrored = |[along, across]: [f64; 2]| [along, side * across];
     let bearing = bearing(recipe, place.width_ratio);
@@ -215,10 +236,22 @@ fn compare(table: &Arc<Table>, place: Place) -> Result<Compared, DatabaseError> 
         length([found[0] - direct[0], found[1] - direct[1]]) / length(direct).max(size)
     };
     let peak = film.summary().peak_film_pressure.value * CLEARANCE.powi(3) / VISCOSITY;
+    let peak = (peak / solved.answer.peak - 1.0).abs();
+    if !derivatives {
+        return Ok(Compared {
+            place,
+            error: off(force, direct),
+            peak,
+            tangent: 0.0,
+            difference: 0.0,
+            dissipation: 1.0,
+            solver: solved.error,
+        });
+    }
     Ok(Compared {
         place,
         error: off(force, direct),
-        peak: (peak / solved.answer.peak - 1.0).abs(),
+        peak,
         tangent: off(by_eps, direct_by_eps).max(off(by_angle, direct_by_angle)),
         difference: difference(&mut film, &place)?,
         dissipation: dissipation(&mut film, &place)?,
@@ -250,50 +283,66 @@ fn turned(place: &Place, eccentricity: f64) -> JournalState {
     }
 }
 
-/// Largest difference of the derivatives to central differences of the table, over the largest of them.
+/// Largest difference of the derivatives to central differences of the table, over the largest of them,
+/// with the steps that show it best: long ones cross nodes, short ones lose digits.
 fn difference(film: &mut TableFilm, place: &Place) -> Result<f64, DatabaseError> {
     let state = turned(place, place.eccentricity);
     let tangent = film.react(&state, Step::Steady, &CONDITIONS)?.tangent;
     let gap = 1.0 - place.eccentricity;
     let mut worst = 0.0_f64;
-    for (by_rate, step) in [
-        (false, 1e-5 * CLEARANCE * gap * gap.sqrt()),
-        (true, 1e-5 * gap.sqrt()),
-    ] {
-        let mut exact = [[0.0; 2]; 2];
-        let mut central = [[0.0; 2]; 2];
-        for column in 0..2 {
-            let mut at = |ahead: f64| -> Result<[f64; 2], DatabaseError> {
-                let mut moved = state;
-                if by_rate {
-                    moved.velocity[column] += ahead;
-                } else {
-                    moved.position[column] += ahead;
+    for (by_rate, scale) in [(false, CLEARANCE * gap), (true, gap.sqrt())] {
+        let exact = if by_rate {
+            &tangent.by_rate
+        } else {
+            &tangent.by_position
+        };
+        let mut best = f64::INFINITY;
+        for step in STEPS {
+            let central = central_differences(film, &state, by_rate, step * scale)?;
+            let mut largest = 0.0_f64;
+            let mut off = 0.0_f64;
+            for (exact, central) in exact.iter().zip(&central) {
+                for (exact, central) in exact.iter().zip(central) {
+                    largest = largest.max(exact.abs());
+                    off = off.max((exact - central).abs());
                 }
-                Ok(film
-                    .react(&moved, Step::Steady, &CONDITIONS)?
-                    .reaction
-                    .film_force)
-            };
-            let [far, near] = [(at(2.0 * step)?, at(-2.0 * step)?), (at(step)?, at(-step)?)];
-            let matrix = if by_rate {
-                &tangent.by_rate
-            } else {
-                &tangent.by_position
-            };
-            for row in 0..2 {
-                exact[row][column] = matrix[row][column];
-                // Fourth order.
-                central[row][column] =
-                    (8.0 * (near.0[row] - near.1[row]) - (far.0[row] - far.1[row])) / (12.0 * step);
             }
+            best = best.min(off / largest);
         }
-        let largest = exact.iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
-        for (exact, central) in exact.iter().flatten().zip(central.iter().flatten()) {
-            worst = worst.max((exact - central).abs() / largest);
-        }
+        worst = worst.max(best);
     }
     Ok(worst)
+}
+
+/// Steps of the differences, relative to the gap, or to its root for velocities.
+const STEPS: [f64; 3] = [1e-3, 1e-4, 1e-5];
+
+/// Derivatives of the force by position or velocity, rows force, columns direction; of fourth order.
+fn central_differences(
+    film: &mut TableFilm,
+    state: &JournalState,
+    by_rate: bool,
+    step: f64,
+) -> Result<[[f64; 2]; 2], DatabaseError> {
+    let mut central = [[0.0; 2]; 2];
+    for column in 0..2 {
+        let mut at = |ahead: f64| -> Result<[f64; 2], DatabaseError> {
+            let mut moved = *state;
+            if by_rate {
+                moved.velocity[column] += ahead;
+            } else {
+                moved.position[column] += ahead;
+            }
+            let seen = film.react(&moved, Step::Steady, &CONDITIONS)?;
+            Ok(seen.reaction.film_force)
+        };
+        let [far, near] = [(at(2.0 * step)?, at(-2.0 * step)?), (at(step)?, at(-step)?)];
+        for (row, central) in central.iter_mut().enumerate() {
+            central[column] =
+                (8.0 * (near.0[row] - near.1[row]) - (far.0[row] - far.1[row])) / (12.0 * step);
+        }
+    }
+    Ok(central)
 }
 
 /// Smallest share of the force along the effective velocity it resists, at the place and beyond the

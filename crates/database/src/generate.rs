@@ -1,16 +1,16 @@
 //! A table built: solved on all cores, interrupted and resumed, refined until it errs less than asked.
 //!
 //! A slice is one eccentricity of one width ratio: its films are solved one after the other, slices
-//! side by side, and every film is that of its node whatever was solved before, so a table does not
+//! side by side, and every film is that of its node whatever was solved before, so that a table does not
 //! depend on the number of cores or on interruptions. A level ends when all nodes are there. Then every
 //! second node along an axis is left out, and what a table without them says of them tells which axis
 //! errs; it gets a node in the middle of every two. Once no axis shows an error, films at states between
-//! the nodes decide.
+//! the nodes decide: drawn ones, and the middles beside the nodes that were missed most.
 
 use crate::aligned_film::{AlignedFilm, FilmCase};
-use crate::check::{CheckReport, check};
+use crate::check::{CheckReport, Place, check_at, places};
 use crate::contents::Contents;
-use crate::direction::from_logarithms;
+use crate::direction::{Direction, from_logarithms};
 use crate::error::DatabaseError;
 use crate::recipe::Recipe;
 use crate::table::{Axes, Errors, Node, Table, contents, parts};
@@ -36,8 +36,9 @@ impl Progress for () {}
 
 /// What the attribute `scheme` of an unfinished file says.
 const UNFINISHED: &str = "combined-unfinished";
-/// Nodes along each axis to begin with; nine are the fewest of which every second one may be left out.
-const FIRST: [usize; 3] = [9, 17, 17];
+/// Nodes along each axis to begin with: nine are the fewest of which every second one may be left out;
+/// along the eccentricity the derivatives ask for more than the force.
+const FIRST: [usize; 3] = [9, 25, 17];
 /// Most nodes of a table.
 const MOST_NODES: usize = 1 << 20;
 /// Films that are solved at least every so often are kept.
@@ -45,6 +46,8 @@ const KEEP_EVERY: Duration = Duration::from_secs(5);
 /// Share of the target that the axes' own estimate and the samples may use, so that fresh states stay
 /// below it.
 const SAFE: f64 = 0.5;
+/// Nodes of each axis beside which the table is looked at besides the samples.
+const WEAK: usize = 25;
 /// Factor by which halving the distance of nodes is trusted to lower an error; a smooth film gives 16.
 const TRUSTED: f64 = 10.0;
 
@@ -67,11 +70,16 @@ pub fn generate(
     let table = loop {
         build.fill(progress, unfinished)?;
         let table = build.table()?;
-        let missing = build.axis_errors(&table)?.map(|error| error / TRUSTED);
+        let halves = build.halves(&table)?;
+        let missing = halves
+            .each_ref()
+            .map(|halves| halves.first().map_or(0.0, |(_, error)| error / TRUSTED));
         let mut refine = missing.map(|error| error > SAFE * recipe.target);
         if !refine.contains(&true) {
             let table = Arc::new(table);
-            let report = check(&table, recipe.samples, recipe.seed)?;
+            let mut places = places(recipe, recipe.samples, recipe.seed);
+            places.extend(build.weak_places(&halves));
+            let report = check_at(&table, &places, false)?;
             if report.maximum <= SAFE.sqrt() * recipe.target {
                 let errors = build.errors(&report);
                 break Arc::unwrap_or_clone(table).with_errors(errors);
@@ -258,16 +266,52 @@ impl Build {
         )
     }
 
-    /// Largest error along each axis of a table with every second node, at the nodes left out.
-    fn axis_errors(&self, table: &Table) -> Result<[f64; 3], DatabaseError> {
+    /// Errors of tables with every second node along each axis, at the nodes left out, the largest
+    /// first.
+    fn halves(&self, table: &Table) -> Result<[Vec<(usize, f64)>; 3], DatabaseError> {
         let counts = self.axes.counts();
-        let mut errors = [0.0; 3];
-        for (axis, error) in errors.iter_mut().enumerate() {
+        let mut halves = [const { Vec::new() }; 3];
+        for (axis, errors) in halves.iter_mut().enumerate() {
             if counts[axis] > 1 {
-                *error = table.error_of_half(axis)?;
+                *errors = table.errors_of_half(axis)?;
+                errors.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
             }
         }
-        Ok(errors)
+        Ok(halves)
+    }
+
+    /// Middles between the nodes that tables with fewer nodes miss most: where the table should err most.
+    fn weak_places(&self, halves: &[Vec<(usize, f64)>; 3]) -> Vec<Place> {
+        let counts = self.axes.counts();
+        let axes = &self.axes;
+        let mut places = Vec::new();
+        for (axis, halves) in halves.iter().enumerate() {
+            for (at, _) in halves.iter().take(WEAK) {
+                let node = [
+                    at / (counts[1] * counts[2]),
+                    at / counts[2] % counts[1],
+                    at % counts[2],
+                ];
+                for side in [-0.5, 0.5] {
+                    let near = |of: usize| {
+                        let last = (counts[of] - 1) as f64;
+                        let aside = if of == axis || of == 2 {
+                            side
+                        } else {
+                            0.25 * side
+                        };
+                        (node[of] as f64 + aside).clamp(0.0, last)
+                    };
+                    let eccentricity = axes.eccentricity.at(near(1));
+                    places.push(Place {
+                        width_ratio: axes.width_ratio.at(near(0)),
+                        eccentricity,
+                        angle: Direction::angle(eccentricity, axes.direction.at(near(2))),
+                    });
+                }
+            }
+        }
+        places
     }
 
     /// A node in the middle of every two along some axes.

@@ -1,5 +1,9 @@
 //! Smooth surfaces through the nodes of a table: tensor products of splines over relative
 //! eccentricity and direction, one for each width ratio or one between them.
+//!
+//! A journal at the eccentricity -eps that moves at some angle from its line of centres is one at eps on the
+//! other side, which moves at pi minus that angle: the direction's coordinate changes its sign. So the
+//! nodes go on beyond the centre, and the surfaces are as smooth there as anywhere.
 
 use crate::axis::Axis;
 use crate::error::DatabaseError;
@@ -21,27 +25,60 @@ pub(crate) struct Looked<const L: usize> {
     pub by_direction: [f64; L],
 }
 
+/// What a value becomes when the sense of rotation is mirrored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mirrored {
+    /// The same: its slope vanishes at both ends of the direction.
+    Same,
+    /// The negative.
+    Negative,
+    /// An angle: pi less the angle, where the narrowest gap changes sides too.
+    Angle,
+}
+
+impl Mirrored {
+    /// The coefficient beyond the centre of that of the other direction.
+    fn beyond_centre(self, coefficient: f64) -> f64 {
+        match self {
+            Self::Same => coefficient,
+            Self::Negative => -coefficient,
+            Self::Angle => std::f64::consts::PI - coefficient,
+        }
+    }
+}
+
+/// Nodes beyond the centre: what lies farther has no weight left, each node passes on about a quarter.
+const BEYOND: usize = 12;
+
 impl<const L: usize> Surface<L> {
-    /// Surfaces through `values`, direction fastest, then eccentricity. `even` tells the lanes that are
-    /// mirrored in the sense of rotation: their slope vanishes at both ends of the direction.
+    /// Surfaces through `values`, direction fastest, then eccentricity.
     pub fn through(
         counts: [usize; 2],
         values: &[[f64; L]],
-        even: [bool; L],
+        mirrored: [Mirrored; L],
     ) -> Result<Self, DatabaseError> {
         let [eccentricities, directions] = counts;
         let wide = coefficients(directions);
         // Along the direction, one lane after the other, as their ends differ.
-        let mut rows = vec![[0.0; L]; eccentricities * wide];
-        for (lane, even) in even.into_iter().enumerate() {
-            let end = if even { End::Even } else { End::NotAKnot };
+        let beyond = BEYOND.min(eccentricities - 1);
+        let mut rows = vec![[0.0; L]; (beyond + eccentricities) * wide];
+        for (lane, mirror) in mirrored.into_iter().enumerate() {
+            let end = if mirror == Mirrored::Same {
+                End::Even
+            } else {
+                End::NotAKnot
+            };
             for e in 0..eccentricities {
                 let nodes: Vec<f64> = values[e * directions..(e + 1) * directions]
                     .iter()
                     .map(|node| node[lane])
                     .collect();
                 for (d, c) in fit(&nodes, 1, [end; 2])?.into_iter().enumerate() {
-                    rows[e * wide + d][lane] = c;
+                    rows[(beyond + e) * wide + d][lane] = c;
+                    if (1..=beyond).contains(&e) {
+                        let opposite = (beyond - e) * wide + wide - 1 - d;
+                        rows[opposite][lane] = mirror.beyond_centre(c);
+                    }
                 }
             }
         }
@@ -49,7 +86,7 @@ impl<const L: usize> Surface<L> {
         let (coefficients, _) = flat.as_chunks::<L>();
         Ok(Self {
             counts,
-            coefficients: coefficients.to_vec(),
+            coefficients: coefficients[beyond * wide..].to_vec(),
         })
     }
 

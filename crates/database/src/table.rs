@@ -13,7 +13,7 @@ use crate::contents::{Contents, Value};
 use crate::direction::{Direction, from_logarithms, to_logarithms};
 use crate::error::DatabaseError;
 use crate::recipe::Recipe;
-use crate::surface::Surface;
+use crate::surface::{Mirrored, Surface};
 use std::path::Path;
 
 /// What the attribute `scheme` of the file says.
@@ -146,10 +146,10 @@ impl Table {
         let shown = figures.chunks_exact(per_width);
         Ok(Self {
             forces: forces
-                .map(|slice| Surface::through(counts, slice, [true, false]))
+                .map(|slice| Surface::through(counts, slice, [Mirrored::Same, Mirrored::Negative]))
                 .collect::<Result<_, _>>()?,
             figures: shown
-                .map(|slice| Surface::through(counts, slice, [true, true, true, false]))
+                .map(|slice| Surface::through(counts, slice, SHOWN))
                 .collect::<Result<_, _>>()?,
             recipe,
             axes,
@@ -188,9 +188,9 @@ impl Table {
         Self { errors, ..self }
     }
 
-    /// Largest error of the force, over its size, of a table with every second node along one axis, at the
-    /// nodes left out.
-    pub(crate) fn error_of_half(&self, axis: usize) -> Result<f64, DatabaseError> {
+    /// Errors of the force, over its size, of a table with every second node along one axis, at the nodes
+    /// left out, with their index.
+    pub(crate) fn errors_of_half(&self, axis: usize) -> Result<Vec<(usize, f64)>, DatabaseError> {
         let counts = self.axes.counts();
         let mut fewer = counts;
         fewer[axis] = counts[axis].div_ceil(2);
@@ -210,7 +210,7 @@ impl Table {
             .map(|(_, node)| *node);
         let axes = Axes::new(&self.recipe, fewer)?;
         let half = Self::new(self.recipe, axes, nodes.collect(), Errors::default())?;
-        let mut worst = 0.0_f64;
+        let mut errors = Vec::new();
         let (mut width, mut slice) = (usize::MAX, None);
         for (at, node) in self.nodes.iter().enumerate().filter(|(at, _)| !kept(*at)) {
             let [own_width, own, direction] = place(at);
@@ -229,9 +229,9 @@ impl Table {
             let found = slice.look(fewer(own, 1), fewer(direction, 2)).value;
             let force = from_logarithms(found, self.axes.angle(own, direction));
             let off = (force[0] - node.force[0]).hypot(force[1] - node.force[1]);
-            worst = worst.max(off / node.force[0].hypot(node.force[1]));
+            errors.push((at, off / node.force[0].hypot(node.force[1])));
         }
-        Ok(worst)
+        Ok(errors)
     }
 
     /// The surfaces at one width ratio: forces, and ln of the peak pressure, side flow, share of the full
@@ -299,6 +299,14 @@ impl Table {
         })
     }
 }
+
+/// ln of the peak pressure, side flow, share of the full film, angle of the peak.
+const SHOWN: [Mirrored; 4] = [
+    Mirrored::Same,
+    Mirrored::Same,
+    Mirrored::Same,
+    Mirrored::Angle,
+];
 
 /// Name, unit, meaning and value of the datasets of nodes.
 type Column = (&'static str, &'static str, &'static str, fn(&Node) -> f64);

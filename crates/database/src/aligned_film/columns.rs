@@ -44,10 +44,15 @@ pub(super) trait Columns: Send {
 }
 
 /// Columns of the coarsest ring.
-pub(super) const COARSEST: usize = 48;
+pub(super) const COARSEST: usize = 32;
 
 /// Updates of the set of one ring; a start from the ring below needs about four.
 const MOST_UPDATES: usize = 80;
+
+/// Corrections of a rupture boundary that lies between two columns.
+const BOUNDARY_STEPS: usize = 2;
+/// Largest change of the pressure beyond a boundary per change of that before it.
+const STEEPEST: f64 = 20.0;
 
 pub(super) struct Rings<const M: usize> {
     case: FilmCase,
@@ -128,7 +133,7 @@ impl<const M: usize> Columns for Rings<M> {
 /// Force of the film without rupture on a coarse ring: along for a closing gap, across for a sliding
 /// journal.
 pub(super) fn full_forces<const M: usize>(case: &FilmCase) -> [f64; 2] {
-    let count = 2 * COARSEST;
+    let count = 4 * COARSEST;
     let ring = Ring::<M>::new(count, case.eccentricity, 1.0 / case.width_ratio);
     let mut level = Level {
         ring,
@@ -183,6 +188,7 @@ impl<const M: usize> Level<M> {
     /// pull. False if it does not settle.
     fn complementary(&mut self, angle: f64, line: bool) -> bool {
         let count = self.ring.count();
+        self.ring.beyond.fill([0.0; M]);
         for update in 0..MOST_UPDATES {
             self.ring.factorise();
             self.pressure = self.sources(angle);
@@ -215,10 +221,47 @@ impl<const M: usize> Level<M> {
                 }
             }
             if !changed {
+                for _ in 0..BOUNDARY_STEPS {
+                    self.fit_boundary(angle);
+                }
                 return true;
             }
         }
         false
+    }
+
+    /// The rupture boundary lies between two columns: behind it the pressure would go on as the parabola
+    /// that touches zero there, which is what the last column in the film sees instead of zero.
+    fn fit_boundary(&mut self, angle: f64) {
+        let n = self.ring.count();
+        let mut right = self.sources(angle);
+        self.ring.beyond.fill([0.0; M]);
+        for k in 0..n {
+            for (inner, outer, face) in [
+                ((k + n - 1) % n, (k + 1) % n, k),
+                ((k + 1) % n, (k + n - 1) % n, (k + n - 1) % n),
+            ] {
+                for j in 0..M {
+                    let inside = |k: usize| self.ring.set[k] >> j & 1 == 1;
+                    if !inside(k) || inside(outer) || !inside(inner) {
+                        continue;
+                    }
+                    let own = self.pressure[k][j].max(0.0).sqrt();
+                    let next = self.pressure[inner][j].max(0.0).sqrt();
+                    let root = 2.0 * own - next;
+                    if root >= 0.0 || next <= 0.0 {
+                        continue;
+                    }
+                    let slope = (-root / own.max(1e-3 * next)).min(STEEPEST);
+                    let stiffness = self.ring.face(face, j);
+                    self.ring.beyond[k][j] += stiffness * slope;
+                    right[k][j] += stiffness * (root * root + slope * own * own);
+                }
+            }
+        }
+        self.ring.factorise();
+        self.ring.solve(&mut right);
+        self.pressure = right;
     }
 
     /// Part of the length of column `k` that its node `j` stands for, where the pressure is cut at
@@ -240,17 +283,47 @@ impl<const M: usize> Level<M> {
         1.0 - lost((k + 1) % n) - lost((k + n - 1) % n)
     }
 
+    /// Derivative of what a node counts, pressure times [`Level::kept`] of itself and its neighbours, by
+    /// its pressure.
+    fn kept_change(&self, k: usize, j: usize) -> f64 {
+        let n = self.ring.count();
+        let own = self.pressure[k][j];
+        let sides = [(k + 1) % n, (k + n - 1) % n].map(|other| self.pressure[other][j]);
+        if own > 0.0 {
+            let lost = |other: f64| {
+                if other < 0.0 {
+                    0.5 * (other / (other - own)).powi(2)
+                } else {
+                    0.0
+                }
+            };
+            1.0 - lost(sides[0]) - lost(sides[1])
+        } else {
+            let gained = |other: f64| {
+                if other > 0.0 {
+                    0.5 * (other / (other - own)).powi(2)
+                } else {
+                    0.0
+                }
+            };
+            gained(sides[0]) + gained(sides[1])
+        }
+    }
+
     fn cut_answer(&mut self, angle: f64, tangents: bool) -> Answer {
         let count = self.ring.count();
-        let kept: Vec<[f64; M]> = (0..count)
-            .map(|k| std::array::from_fn(|j| self.kept(k, j)))
-            .collect();
-        let mut answer = self.integrals(&kept);
+        let each = |of: fn(&Self, usize, usize) -> f64| -> Vec<[f64; M]> {
+            (0..count)
+                .map(|k| std::array::from_fn(|j| of(self, k, j)))
+                .collect()
+        };
+        let mut answer = self.integrals(&each(Self::kept));
         if tangents {
+            let weight = each(Self::kept_change);
             let turned = self.turned(angle);
             let moved = self.moved();
-            answer.by_angle = self.force(&turned, &kept);
-            answer.by_eccentricity = self.force(&moved, &kept);
+            answer.by_angle = self.force(&turned, &weight);
+            answer.by_eccentricity = self.force(&moved, &weight);
         }
         answer
     }

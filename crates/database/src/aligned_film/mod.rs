@@ -2,7 +2,7 @@
 //!
 //! The dimensionless problem of `direction`, solved on rings of columns around the bearing (second
 //! order) with spectral nodes across the width, by active sets for `reynolds` and one linear solve,
-//! cut, for `gumbel`. Two rings are extrapolated to their limit (Richardson), which the next pair must
+//! cut, for `gumbel`. Two rings are extrapolated to their limit (Richardson), which two more must
 //! confirm. The nodes across the width are chosen on the film without rupture, whose error no set
 //! disturbs.
 //!
@@ -39,8 +39,8 @@ pub struct AlignedFilm {
     across: f64,
 }
 
-/// Finest level: 48 x 2^6 = 3072 columns.
-const FINEST: usize = 6;
+/// Finest level: 32 x 2^7 = 4096 columns.
+const FINEST: usize = 7;
 /// Most that the nodes across the width may leave of an error; the columns share the rest.
 const ACROSS: f64 = 0.3;
 
@@ -88,12 +88,18 @@ impl AlignedFilm {
         let mut best: Option<Solved> = None;
         for level in 0..=FINEST {
             levels.push(self.columns.answer(level, angle, tangents)?);
-            let [.., coarse, middle, fine] = levels[..] else {
+            let [.., first, coarse, middle, fine] = levels[..] else {
                 continue;
             };
             let limit = extrapolated(&middle, &fine);
             let before = extrapolated(&coarse, &middle);
-            let around = distance(&limit, &before) / size(&limit.force) * CONFIRMED;
+            let earlier = extrapolated(&first, &coarse);
+            // Two limits may agree by chance, three hardly.
+            let steps = [
+                distance(&limit, &before),
+                CHANCE * distance(&before, &earlier),
+            ];
+            let around = CONFIRMED * steps[0].max(steps[1]) / size(&limit.force);
             best = Some(Solved {
                 answer: limit,
                 error: around + self.across,
@@ -110,6 +116,8 @@ impl AlignedFilm {
 
 /// Share of the step between two limits that the second one may still be off.
 const CONFIRMED: f64 = 0.5;
+/// Share of the step before that counts as one of the last.
+const CHANCE: f64 = 0.25;
 
 /// Limit of two rings, the second with twice the columns, of second order.
 fn extrapolated(coarse: &Answer, fine: &Answer) -> Answer {
@@ -118,6 +126,8 @@ fn extrapolated(coarse: &Answer, fine: &Answer) -> Answer {
         |coarse: [f64; 2], fine: [f64; 2]| [limit(coarse[0], fine[0]), limit(coarse[1], fine[1])];
     Answer {
         force: both(coarse.force, fine.force),
+        by_eccentricity: both(coarse.by_eccentricity, fine.by_eccentricity),
+        by_angle: both(coarse.by_angle, fine.by_angle),
         peak: limit(coarse.peak, fine.peak),
         side_flow: limit(coarse.side_flow, fine.side_flow),
         ..*fine

@@ -31,6 +31,8 @@ pub(super) struct Ring<const M: usize> {
     /// Derivatives of the two by the relative eccentricity.
     axial_slope: Vec<f64>,
     face_slope: Vec<f64>,
+    /// What the film beyond a rupture boundary between two columns adds to the diagonal.
+    pub beyond: Vec<[f64; M]>,
     /// The unknowns: one bit per node.
     pub set: Vec<u32>,
     start: usize,
@@ -73,6 +75,7 @@ impl<const M: usize> Ring<M> {
                 -3.0 * ratio * slope(phi) * step * gap(phi).powi(2) * phi.cos()
             }),
             face_slope: between(&|phi| -3.0 * gap(phi).powi(2) * phi.cos() / (slope(phi) * step)),
+            beyond: vec![[0.0; M]; count],
             set: vec![Self::ALL; count],
             start: 0,
             closed: true,
@@ -87,6 +90,11 @@ impl<const M: usize> Ring<M> {
 
     pub fn weights(&self) -> &[f64; M] {
         &self.width.weights
+    }
+
+    /// Stiffness between column `k` and the next one at node `j`.
+    pub fn face(&self, k: usize, j: usize) -> f64 {
+        self.face[k] * self.width.weights[j]
     }
 
     /// Slope of the pressure of a column at the end of the width.
@@ -124,7 +132,7 @@ impl<const M: usize> Ring<M> {
                     return if j == l { 1.0 } else { 0.0 };
                 }
                 let around = if j == l {
-                    faces * self.width.weights[j]
+                    faces * self.width.weights[j] + self.beyond[k][j]
                 } else {
                     0.0
                 };
