@@ -47,6 +47,7 @@ fn tilted() -> &'static Arc<SuperpositionTable> {
                 eccentricities: [0.15, 0.45],
                 eccentricity_nodes: 5,
                 samples: 20,
+                tilt_nodes: [13, 11],
                 ..whole
             });
         }
@@ -409,7 +410,6 @@ fn stopped_and_resumed_it_is_the_same() {
         tilt_nodes: [5, 5],
         largest_shares: [0.4, 0.4],
         grid: [48, 16],
-        node_error_target: 0.05,
         samples: 3,
         ..SuperpositionRecipe::tilted(1.5)
     };

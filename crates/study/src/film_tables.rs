@@ -175,7 +175,7 @@ impl StoredFilms {
                 let nodes = recipe.eccentricity_nodes
                     * recipe.tilt_nodes.iter().product::<usize>()
                     * accuracy.len();
-                let worst = accuracy.iter().map(|one| one.largest.max(one.node_error));
+                let worst = accuracy.iter().map(|one| one.largest);
                 DatabaseFacts {
                     file: self.name.clone(),
                     scheme: self.scheme(),

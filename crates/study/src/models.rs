@@ -36,7 +36,7 @@ pub const MODELS: &[Model] = &[
         family: "film",
         name: "online",
         description: "Reynolds equation of a plain aligned bearing in shapes across the width and \
-                      nodes around that follow the line of centres, negative pressures cut",
+                      nodes around that follow the line of centres",
         reference: "Reynolds, O. (1886): On the theory of lubrication and its application to \
                     Mr. Beauchamp Tower's experiments. Phil. Trans. R. Soc. 177, 157-234",
         doi: Some("10.1098/rstl.1886.0005"),

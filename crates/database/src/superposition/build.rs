@@ -11,11 +11,11 @@ use crate::axis::Axis;
 use crate::error::DatabaseError;
 use rayon::prelude::*;
 use sommerfeld_film::Outcome;
-use sommerfeld_film::dimensionless::{RefinedSolution, refine_dimensionless};
+use sommerfeld_film::dimensionless::{DimensionlessSolution, solve_dimensionless};
 use std::path::Path;
 
-/// Of a node: `Phi_1, Phi_2, Theta_1, Theta_2`, the largest `Pi`, and the estimated relative error of the
-/// first four.
+/// Of a node: `Phi_1, Phi_2, Theta_1, Theta_2`, the largest `Pi`, and how far extrapolation moved the
+/// first four, over force and moment.
 pub(super) const FIGURES: usize = 6;
 /// Films between two reports of progress.
 const BATCH: usize = 64;
@@ -115,7 +115,8 @@ impl SuperpositionTable {
 
     fn error_at(&self, sample: &Sample) -> Result<f64, DatabaseError> {
         let Sample { drive, eps, tilts } = *sample;
-        let direct = solve_film(&self.recipe, drive, eps, tilts)?.integrals;
+        let finer = self.recipe.grid.map(|cells| 2 * (3 * cells / 4));
+        let direct = solve_film(&self.recipe, drive, eps, tilts, finer)?.integrals;
         let factor = if drive == Drive::Wedge { eps } else { 1.0 };
         let [f1, f2, m1, m2] =
             (self.lookup(drive, eps, tilts).integrals).map(|value| factor * value);
@@ -260,20 +261,19 @@ fn solve(
     (drive, node): Task,
 ) -> Result<[f64; FIGURES], DatabaseError> {
     let (eps, tilts) = place_of(axes, node);
-    let refined = solve_film(recipe, drive, eps, tilts)?;
-    let found = refined.integrals;
-    // The last of them is the peak.
-    let errors = refined.relative_errors();
-    let error = errors[..4]
-        .iter()
-        .fold(0.0_f64, |largest, (_, error)| largest.max(*error));
+    let solution = solve_film(recipe, drive, eps, tilts, recipe.grid)?;
+    let (found, moved) = (solution.integrals, solution.moved);
+    let force = found.p_cos.hypot(found.p_sin);
+    let moment = found.p_z_cos.hypot(found.p_z_sin).max(0.1 * force);
+    let of_force = moved.p_cos.hypot(moved.p_sin) / force;
+    let of_moment = moved.p_z_cos.hypot(moved.p_z_sin) / moment;
     Ok([
         found.p_cos,
         found.p_sin,
         found.p_z_cos,
         found.p_z_sin,
         found.peak,
-        error,
+        of_force.max(of_moment),
     ])
 }
 
@@ -282,11 +282,12 @@ fn solve_film(
     drive: Drive,
     eps: f64,
     tilts: [f64; 2],
-) -> Result<RefinedSolution, DatabaseError> {
+    grid: [usize; 2],
+) -> Result<DimensionlessSolution, DatabaseError> {
     let film = recipe.film(drive, eps, tilts);
-    let refined = refine_dimensionless(&film, recipe.grid, recipe.node_error_target)?;
-    if refined.outcome == Outcome::Converged {
-        return Ok(refined);
+    let solution = solve_dimensionless(&film, grid)?;
+    if solution.outcome == Outcome::Converged {
+        return Ok(solution);
     }
     Err(DatabaseError::TiltedNotSolved {
         drive: drive.letter(),

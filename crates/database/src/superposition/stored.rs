@@ -23,7 +23,7 @@ const NAMES: [(&str, &str); FIGURES] = [
     ("peak_", "Largest Pi"),
     (
         "node_error_",
-        "Estimated error of the integrals, over force and moment",
+        "Estimated error of the integrals before they are extrapolated, over force and moment",
     ),
 ];
 
@@ -147,7 +147,6 @@ fn note_recipe(recipe: &SuperpositionRecipe, contents: &mut Contents) {
             }),
         ),
         ("grid", pair(recipe.grid)),
-        ("node_error_target", Value::Number(recipe.node_error_target)),
         ("smallest_gap", Value::Number(recipe.smallest_gap)),
         ("samples", count(recipe.samples)),
         ("tilt_rates", text("neglected")),
@@ -179,7 +178,6 @@ fn recipe_of(contents: &Contents, path: &Path) -> Result<SuperpositionRecipe, Da
         cavitation: closures[word("cavitation", &["gumbel", "reynolds"])?],
         wedge_inlet: inlets[word("wedge_inlet", &["cyclic", "max-film-line"])?],
         grid: counts("grid")?,
-        node_error_target: number("node_error_target")?,
         smallest_gap: number("smallest_gap")?,
         samples: number("samples")? as usize,
     })

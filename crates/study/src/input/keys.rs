@@ -324,7 +324,7 @@ pub const KEYS: &[Key] = &[
 
     key("film", Table, Optional, CLOSED, "How the film is modelled.", ""),
     key("film.model", Choice(&["field", "online", "database", "superposition", "short-bearing", "mobility", "long-bearing"], &[]), Default("field"), ALL,
-        "field: Reynolds equation on a grid; online: the film of a plain aligned bearing without feeds, solved in microseconds with the closure gumbel; database: the same bearing looked up in the films of film.database, with their closure; superposition: the same with wedge and squeeze stored apart and their forces added, as in the paper, for comparison; the others are closed forms, estimates outside their range.", "\"field\""),
+        "field: Reynolds equation on a grid; online: the film of a plain aligned bearing without feeds, solved in microseconds with the closure gumbel (its default) or reynolds; database: the same bearing looked up in the films of film.database, with their closure; superposition: the same with wedge and squeeze stored apart and their forces added, as in the paper, for comparison; the others are closed forms, estimates outside their range.", "\"field\""),
     key("film.database", Files, Optional, PHYSICAL,
         "HDF5 file beside the study, or a list of files, that hold the films of the models looked up in databases; `sommerfeld database build` or an analysis \"database\" makes one. Of several files each bearing takes the first that holds its closure and its width over diameter.", "\"big-end-films/table.h5\""),
     key("film.feeds", Choice(&["used", "left-out"], &[]), Default("used"), PHYSICAL,
@@ -396,7 +396,7 @@ pub const KEYS: &[Key] = &[
         "combined: wedge and squeeze solved together at every ratio of one to the other, exact up to the stated error; superposition: each solved apart and their forces added, as in the paper, which errs by tens of percent where both act.", "\"combined\""),
     key("database.width_ratios", Numbers(Range::between(0.05, 4.0, "")), Optional, DATABASE,
         "Width over diameter of the bearings: one, or the smallest and the largest, between which every one is held. Left out, it is that of [bearing].", "0.4, [0.3, 0.5]"),
-    key("database.target", Number(Range::between(1e-5, 0.05, "")), Default("1e-3"), DATABASE, "Largest error of the force over its size, on states drawn at random; nodes are added until it is met. Of superposition, the largest error of a film at a node.", "1e-3"),
+    key("database.target", Number(Range::between(1e-5, 0.05, "")), Default("1e-3"), DATABASE, "Largest error of the force over its size, on states drawn at random; nodes are added until it is met. Of superposition nothing is added: a table that misses it says so.", "1e-3"),
     key("database.last_eccentricity", Number(Range::between(0.5, 0.9999, "")), Optional, DATABASE, "Largest relative eccentricity of the nodes; the film is continued smoothly beyond. Default: 0.999; 0.99 of superposition.", "0.999"),
     key("database.samples", Integer(100, 1_000_000), Optional, DATABASE, "States drawn at random at which the database is held against films solved for them. Default: 400; 40 for each drive of superposition.", "400"),
     key("database.seed", Integer(0, i64::MAX), Default("1"), DATABASE, "Where the random states begin: another number draws others.", "1"),

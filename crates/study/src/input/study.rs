@@ -114,7 +114,12 @@ pub enum DatabasePlan {
     /// Wedge and squeeze solved together.
     Combined(Recipe),
     /// Wedge and squeeze solved apart, as in the paper.
-    Superposition(SuperpositionRecipe),
+    Superposition {
+        /// Everything that decides what it holds.
+        recipe: SuperpositionRecipe,
+        /// Error that is asked for.
+        target: f64,
+    },
 }
 
 impl DatabasePlan {
@@ -123,7 +128,7 @@ impl DatabasePlan {
     pub const fn closure(&self) -> Cavitation {
         match self {
             Self::Combined(recipe) => recipe.closure,
-            Self::Superposition(recipe) => recipe.cavitation,
+            Self::Superposition { recipe, .. } => recipe.cavitation,
         }
     }
 
@@ -132,7 +137,7 @@ impl DatabasePlan {
     pub const fn scheme(&self) -> Scheme {
         match self {
             Self::Combined(_) => Scheme::Combined,
-            Self::Superposition(_) => Scheme::Superposition,
+            Self::Superposition { .. } => Scheme::Superposition,
         }
     }
 
@@ -141,7 +146,7 @@ impl DatabasePlan {
     pub const fn width_ratios(&self) -> [f64; 2] {
         match self {
             Self::Combined(recipe) => recipe.width_ratios,
-            Self::Superposition(recipe) => [1.0 / recipe.d_over_b; 2],
+            Self::Superposition { recipe, .. } => [1.0 / recipe.d_over_b; 2],
         }
     }
 
@@ -150,7 +155,7 @@ impl DatabasePlan {
     pub const fn target(&self) -> f64 {
         match self {
             Self::Combined(recipe) => recipe.target,
-            Self::Superposition(recipe) => recipe.node_error_target,
+            Self::Superposition { target, .. } => *target,
         }
     }
 }

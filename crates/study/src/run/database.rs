@@ -98,6 +98,16 @@ fn results(study: &Study, file: PathBuf, built: Option<BuiltDatabase>, start: In
                 ),
             );
         }
+        Some(built) if built.facts.stated_error > built.target => {
+            header.messages.insert(
+                0,
+                format!(
+                    "the films of wedge and squeeze err by up to {:.2e} between the nodes, more than \
+                     the target {:.2e}",
+                    built.facts.stated_error, built.target
+                ),
+            );
+        }
         Some(_) => {}
     }
     let mut results = Results {
@@ -142,6 +152,9 @@ impl Watch {
         let (done, total, level) = (load(&self.done), load(&self.total), load(&self.level));
         if self.is_checking.load(Ordering::Relaxed) {
             return ProgressEvent::new("drawing states anew", 0.97);
+        }
+        if level == 0 {
+            return ProgressEvent::new("starting", 0.0);
         }
         let share = done as f64 / total.max(1) as f64;
         let before = 1.0 - 0.5_f64.powi(level.saturating_sub(1) as i32);
@@ -213,7 +226,7 @@ fn built_and_checked(
                 fresh,
             })
         }
-        DatabasePlan::Superposition(recipe) => {
+        DatabasePlan::Superposition { recipe, .. } => {
             // It keeps what is solved beside the file that it is to be.
             let file = files.map(|(_, file)| file);
             let table = SuperpositionTable::build(recipe, file, &mut |done, total| {

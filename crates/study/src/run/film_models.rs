@@ -84,12 +84,20 @@ pub(super) fn adapted(
         notes.extend(database.map(|database| database.facts().told()));
     }
     let bearing = &mut case.bearing;
-    if !model.is_looked_up() && bearing.cavitation != Cavitation::Gumbel {
+    let nearest = match (model, bearing.cavitation) {
+        (FilmModel::Database | FilmModel::Superposition, own) => own,
+        (FilmModel::Online, Cavitation::Reynolds | Cavitation::MassConserving) => {
+            Cavitation::Reynolds
+        }
+        _ => Cavitation::Gumbel,
+    };
+    if nearest != bearing.cavitation {
         notes.push(format!(
-            "closure gumbel in place of {}",
+            "closure {} in place of {}",
+            closure_name(nearest),
             closure_name(bearing.cavitation)
         ));
-        bearing.cavitation = Cavitation::Gumbel;
+        bearing.cavitation = nearest;
     }
     if bearing.film_shear != FilmShear::FullWidth {
         notes.push("shear over the full width".to_owned());

@@ -231,19 +231,20 @@ impl Checker<'_> {
         let usual = SuperpositionRecipe::aligned(1.0 / narrow);
         let last = self.number("database.last_eccentricity");
         let last = last.unwrap_or(usual.eccentricities[1]);
-        Some(DatabasePlan::Superposition(SuperpositionRecipe {
+        let recipe = SuperpositionRecipe {
             eccentricities: [usual.eccentricities[0], last],
             cavitation: closure,
             wedge_inlet: match starts_on_line {
                 true => Inlet::MaxFilmLine { pressure: 0.0 },
                 false => Inlet::Cyclic,
             },
-            node_error_target: self.number("database.target")?,
             // The samples reach as far as the nodes.
             smallest_gap: 1.0 - last,
             samples: self.count("database.samples").unwrap_or(usual.samples),
             ..usual
-        }))
+        };
+        let target = self.number("database.target")?;
+        Some(DatabasePlan::Superposition { recipe, target })
     }
 
     fn count(&self, path: &str) -> Option<usize> {
