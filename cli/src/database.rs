@@ -193,7 +193,11 @@ fn scales(arguments: &LookupArguments) -> Result<Option<Scales>, String> {
         diameter: quantity("diameter", &arguments.diameter, length)?,
         width: quantity("width", &arguments.width, length)?,
         radial_clearance: 0.5 * quantity("clearance", &arguments.clearance, length)?,
-        viscosity: quantity("viscosity", &arguments.viscosity, Dimension::DynamicViscosity)?,
+        viscosity: quantity(
+            "viscosity",
+            &arguments.viscosity,
+            Dimension::DynamicViscosity,
+        )?,
         effective_speed: quantity("speed", &arguments.speed, Dimension::AngularSpeed)?,
         eccentricity_rate: match &arguments.eccentricity_rate {
             Some(_) => quantity(

@@ -496,8 +496,7 @@ fn every_example_is_run_here() {
         for file in fs::read_dir(&directory).unwrap() {
             let path = file.unwrap().path();
             if path.extension().is_some_and(|kind| kind == "toml") {
-                let name =
-                    |part: &std::path::Path| part.file_name().unwrap().to_str().unwrap().to_owned();
+                let name = |part: &Path| part.file_name().unwrap().to_str().unwrap().to_owned();
                 studies.push(format!("{}/{}", name(&directory), name(&path)));
             }
         }

@@ -75,6 +75,9 @@ pub struct DatabaseFacts {
     pub width_ratios: [f64; 2],
     /// Last relative eccentricity with nodes.
     pub last_eccentricity: f64,
+    /// Error of the force over its size that it was built to keep; of a superposition, that its samples
+    /// found, of wedge and squeeze each.
+    pub bound: f64,
     /// Largest error of the force over its size that the samples of the build found.
     pub stated_error: f64,
     /// The number of those samples.
@@ -94,15 +97,18 @@ impl DatabaseFacts {
             format!("B/D {narrow:.4} to {wide:.4}")
         };
         format!(
-            "database {} ({}, closure {}, {held}), stated error {:.1e} of the force{}",
+            "database {} ({}, closure {}, {held}), stated error {:.1e} of the force{}, {:.1e} found at {} \
+             states",
             self.file,
             self.scheme.name(),
             self.closure,
-            self.stated_error,
+            self.bound,
             match self.scheme {
                 Scheme::Combined => "",
                 Scheme::Superposition => " of wedge and of squeeze, but not of their sum",
-            }
+            },
+            self.stated_error,
+            self.samples
         )
     }
 }
@@ -164,6 +170,7 @@ impl StoredFilms {
                     closure: closure_name(recipe.closure).to_owned(),
                     width_ratios: recipe.width_ratios,
                     last_eccentricity: recipe.last_eccentricity,
+                    bound: recipe.target,
                     stated_error: table.errors().maximum,
                     samples: recipe.samples,
                     points: table.nodes().len(),
@@ -176,13 +183,15 @@ impl StoredFilms {
                     * recipe.tilt_nodes.iter().product::<usize>()
                     * accuracy.len();
                 let worst = accuracy.iter().map(|one| one.largest);
+                let worst = worst.fold(0.0, f64::max);
                 DatabaseFacts {
                     file: self.name.clone(),
                     scheme: self.scheme(),
                     closure: closure_name(recipe.cavitation).to_owned(),
                     width_ratios: [1.0 / recipe.d_over_b; 2],
                     last_eccentricity: recipe.eccentricities[1],
-                    stated_error: worst.fold(0.0, f64::max),
+                    bound: worst,
+                    stated_error: worst,
                     samples: accuracy.iter().map(|one| one.samples).sum(),
                     points: nodes,
                 }

@@ -398,7 +398,7 @@ pub const KEYS: &[Key] = &[
         "Width over diameter of the bearings: one, or the smallest and the largest, between which every one is held. Left out, it is that of [bearing].", "0.4, [0.3, 0.5]"),
     key("database.target", Number(Range::between(1e-5, 0.05, "")), Default("1e-3"), DATABASE, "Largest error of the force over its size, on states drawn at random; nodes are added until it is met. Of superposition nothing is added: a table that misses it says so.", "1e-3"),
     key("database.last_eccentricity", Number(Range::between(0.5, 0.9999, "")), Optional, DATABASE, "Largest relative eccentricity of the nodes; the film is continued smoothly beyond. Default: 0.999; 0.99 of superposition.", "0.999"),
-    key("database.samples", Integer(100, 1_000_000), Optional, DATABASE, "States drawn at random at which the database is held against films solved for them. Default: 400; 40 for each drive of superposition.", "400"),
+    key("database.samples", Integer(8, 1_000_000), Optional, DATABASE, "States drawn at random at which the database is held against films solved for them. Default: 400; 40 for each drive of superposition.", "400"),
     key("database.seed", Integer(0, i64::MAX), Default("1"), DATABASE, "Where the random states begin: another number draws others.", "1"),
 
     key("limits", Table, Optional, PHYSICAL, "Design limits, shown with OK or exceeded.", ""),

@@ -119,6 +119,7 @@ fn looked_up(databases: &[DatabaseFacts]) -> Value {
             "closure": facts.closure,
             "width_ratios": facts.width_ratios,
             "last_eccentricity": facts.last_eccentricity,
+            "target": facts.bound,
             "maximum_relative_error": facts.stated_error,
             "error_samples": facts.samples,
         })

@@ -3,7 +3,7 @@
 use super::chart::{Chart, Mark, Series};
 use super::detail::Detail;
 use super::format::significant;
-use super::page::{Card, Cell, Figure, Page, Section, Table, badge, exact};
+use super::page::{Answer, Card, Cell, Figure, Page, Section, Table, badge, exact};
 use crate::results::Header;
 use crate::results::database::{BuiltDatabase, DatabaseResults, ForceCurve};
 use serde_json::{Value, json};
@@ -18,6 +18,7 @@ pub(super) fn fill(page: &mut Page, header: &Header, database: &DatabaseResults)
     let Some(built) = &database.built else {
         return json!({});
     };
+    page.answer = answer(built);
     page.cards = cards(header, database, built);
     page.sections = vec![content_section()];
     page.tables = vec![errors_table(built), content_table(built)];
@@ -31,6 +32,27 @@ pub(super) fn fill(page: &mut Page, header: &Header, database: &DatabaseResults)
         charts["database-errors"] = errors_over_eccentricity(built);
     }
     json!({ "charts": charts })
+}
+
+/// Whether the database errs by no more than asked.
+fn answer(built: &BuiltDatabase) -> Answer {
+    let found = built.facts.stated_error.max(built.fresh_maximum());
+    let is_met = found <= built.target;
+    Answer {
+        class: if is_met { "good" } else { "bad" },
+        headline: if is_met {
+            "Target met"
+        } else {
+            "Target missed"
+        },
+        explanation: format!(
+            "The force errs by at most {} of its size at {} states, target {}.",
+            small(found),
+            built.facts.samples + built.fresh.len(),
+            small(built.target)
+        ),
+        checks: Vec::new(),
+    }
 }
 
 fn small(value: f64) -> String {
@@ -283,7 +305,7 @@ fn errors_over_eccentricity(built: &BuiltDatabase) -> Value {
 
 fn curves(built: &BuiltDatabase, title: &str, value: fn(&ForceCurve) -> &Vec<f64>) -> Value {
     let series = built.curves.iter().map(|curve| Series {
-        name: format!("{}°", significant(curve.angle.to_degrees())),
+        name: format!("{:.0}°", curve.angle.to_degrees()),
         x: Some(curve.eccentricity.clone()),
         y: value(curve).clone(),
         mark: Mark::Line,

@@ -25,8 +25,6 @@ pub const DATABASE_NAME: &str = "table.h5";
 const UNFINISHED_NAME: &str = "unfinished.h5";
 /// A sign of life at least this often.
 const HEARTBEAT: Duration = Duration::from_millis(100);
-/// States drawn anew for the report.
-const FRESH: usize = 400;
 /// Points of a curve of the report.
 const CURVE: usize = 81;
 
@@ -217,7 +215,7 @@ fn built_and_checked(
             let table = generate(recipe, watch, files.map(|(unfinished, _)| unfinished))?;
             watch.is_checking.store(true, Ordering::Relaxed);
             let table = Arc::new(table);
-            let fresh = fresh_samples(&table, FRESH, recipe.seed.wrapping_add(1))?;
+            let fresh = fresh_samples(&table, recipe.samples, recipe.seed.wrapping_add(1))?;
             if let Some((_, file)) = files {
                 table.save(file)?;
             }

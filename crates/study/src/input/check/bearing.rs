@@ -237,8 +237,8 @@ impl Checker<'_> {
         ];
         for (path, own) in rules {
             let given = self.entry(path).map(|entry| entry.value.clone());
-            let is_solved_on_line = model == FilmModel::Online
-                && given == Some(Value::Text("reynolds".to_owned()));
+            let is_solved_on_line =
+                model == FilmModel::Online && given == Some(Value::Text("reynolds".to_owned()));
             if matches!(given, Some(Value::Text(word)) if word != own) && !is_solved_on_line {
                 let held = match model.is_looked_up() {
                     true => format!(", its films have \"{own}\""),

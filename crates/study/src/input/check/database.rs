@@ -62,7 +62,10 @@ impl Checker<'_> {
 
     fn read_database(&mut self, name: &str) -> Result<StoredFilms, Box<InputError>> {
         let refuse = |checker: &Self, why: String, hint: &str| {
-            let message = format!("the database {name} cannot be used: {why}");
+            let message = match name.trim() {
+                "" => format!("the database cannot be used: {why}"),
+                name => format!("the database {name} cannot be used: {why}"),
+            };
             Box::new(checker.error_at(FILES, message).hinting(hint))
         };
         const BUILD: &str = "`sommerfeld database build STUDY` makes one";
