@@ -172,11 +172,16 @@ fn an_update_allocates_nothing_after_the_first() {
             ..plain()
         };
         let mut film = OnlineFilm::aligned(&bearing, &oil()).unwrap();
-        let first = state(&bearing, 0, duration);
+        let aligned = |k| JournalState {
+            tilt: [0.0; 2],
+            tilt_rate: [0.0; 2],
+            ..state(&bearing, k, duration)
+        };
+        let first = aligned(0);
         film.linearise(&first, Step::Steady, &conditions()).unwrap();
         let before = allocations();
         for k in 1..=10 {
-            let state = state(&bearing, k, duration);
+            let state = aligned(k);
             let answer = film.linearise(&state, Step::Steady, &conditions()).unwrap();
             assert_eq!(answer.outcome, Outcome::Converged);
             assert!(film.summary().peak_film_pressure.value > 0.0);

@@ -1,4 +1,9 @@
 //! The on-line film against a direct solution, the film on a grid, closed forms and identities.
+#![allow(
+    clippy::expect_used,
+    clippy::print_stdout,
+    reason = "helpers of tests stop at the first surprise; --nocapture shows the figures"
+)]
 
 mod common;
 

@@ -55,9 +55,10 @@ impl OnlineFilm {
     /// Film of an aligned journal; it refuses tilt.
     ///
     /// For B/D from 0.25 to 1.5 and all directions of motion the force is, by its size, within
-    /// - closure `gumbel`: 4e-5 up to a relative eccentricity of 0.95, 1.5e-4 up to 0.99;
-    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives by rate, those at the
-    ///   fronts that bound the film, are within 5e-4 of force over motion.
+    /// - closure `gumbel`: 4e-5 up to a relative eccentricity of 0.95, 1.5e-4 up to 0.99; its derivatives
+    ///   are those of the discrete force;
+    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives leave the fronts that bound
+    ///   the film where they are and are within 1e-3 of force over gap, and of force over motion.
     ///
     /// (`film/tests/online.rs`)
     ///

@@ -52,7 +52,7 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     shapes: Shapes<M, G>,
     element: Element,
     fit: FrontFit<G>,
-    matrix: ProfileMatrix,
+    matrix: ProfileMatrix<M>,
     /// Right-hand sides for motion along and across, and the answers u, by unknown.
     sources: Vec<[f64; 2]>,
     answers: Vec<[f64; 2]>,
@@ -112,11 +112,8 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         } = accuracy;
         // Nodes inside, the ends being zero; a row begins where its element does.
         let nodes = elements * degree - 1;
-        let starts = (0..nodes * M)
-            .map(|row| {
-                let element = (row / M) / degree;
-                (element * degree).saturating_sub(1) * M
-            })
+        let starts = (0..nodes)
+            .map(|node| (node / degree * degree).saturating_sub(1))
             .collect();
         Self {
             aspect: d_over_b * d_over_b,

@@ -1,7 +1,12 @@
-//! Films solved on line: shapes across the width, nodes of high order around.
+//! Films without cells, solved on line: shapes across the width, nodes of high order around.
 //!
 //! Pressure is so smooth across the width that a few polynomials carry it, and around the bearing in
-//! Sommerfeld's angle. [`OnlineFilm`] is the model behind [`crate::FilmForce`].
+//! Sommerfeld's angle. [`OnlineFilm`] is the model behind [`crate::FilmForce`], [`AlignedFilm`] the
+//! same without units, also to the precision that tables need. Two closures:
+//! - `gumbel`: the full film falls apart into one equation around for each shape; what is positive of it
+//!   is integrated;
+//! - `reynolds`: the film is mapped onto a rectangle between its two fronts, which are moved to where
+//!   pressure ends smoothly.
 
 #![allow(
     clippy::needless_range_loop,

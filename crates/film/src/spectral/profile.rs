@@ -1,129 +1,198 @@
-//! Symmetric systems whose rows begin at a given column: Cholesky inside the profile.
+//! Symmetric systems of square blocks whose rows begin at a given block: Cholesky inside the profile.
+//!
+//! `A = U^T U` with the blocks of a column of U, from the first that is not zero to the diagonal, one after
+//! another: then every inner loop runs along rows of blocks.
 
-/// A positive definite matrix by the rows of its lower triangle, then its factor.
+/// A square block.
+pub(super) type Block<const M: usize> = [[f64; M]; M];
+
+/// A positive definite matrix by the columns of its upper triangle, then its factor.
 #[derive(Debug, Clone)]
-pub(super) struct ProfileMatrix {
-    /// First column of each row.
+pub(super) struct ProfileMatrix<const M: usize> {
+    /// First block of each column.
     starts: Vec<usize>,
-    /// Where each row lies in `entries`; one more at the end.
+    /// Where each column lies in `blocks`; one more at the end.
     offsets: Vec<usize>,
-    entries: Vec<f64>,
+    blocks: Vec<Block<M>>,
 }
 
-impl ProfileMatrix {
+impl<const M: usize> ProfileMatrix<M> {
     /// Zeros from `starts` to the diagonal.
     pub(super) fn new(starts: Vec<usize>) -> Self {
         let mut offsets = vec![0];
-        for (row, start) in starts.iter().enumerate() {
-            offsets.push(offsets[row] + row + 1 - start);
+        for (column, start) in starts.iter().enumerate() {
+            offsets.push(offsets[column] + column + 1 - start);
         }
-        let entries = vec![0.0; offsets[starts.len()]];
+        let blocks = vec![[[0.0; M]; M]; offsets[starts.len()]];
         Self {
             starts,
             offsets,
-            entries,
+            blocks,
         }
     }
 
     pub(super) fn clear(&mut self) {
-        self.entries.fill(0.0);
+        self.blocks.fill([[0.0; M]; M]);
     }
 
-    /// Columns `from` to `from + M` of a row, for additions.
+    /// The block at a row and a column not before it, for additions.
     #[inline]
-    pub(super) fn part<const M: usize>(&mut self, row: usize, from: usize) -> &mut [f64] {
-        let first = self.offsets[row] + from - self.starts[row];
-        let last = (first + M).min(self.offsets[row + 1]);
-        &mut self.entries[first..last]
+    pub(super) fn block(&mut self, row: usize, column: usize) -> &mut Block<M> {
+        &mut self.blocks[self.offsets[column] + row - self.starts[column]]
     }
 
     /// Replaces the matrix by its factor; false where it is not positive definite.
     pub(super) fn factor(&mut self) -> bool {
-        for row in 0..self.starts.len() {
-            let start = self.starts[row];
-            let (above, rest) = self.entries.split_at_mut(self.offsets[row]);
-            let own = &mut rest[..=row - start];
-            for column in start..row {
-                let begin = self.starts[column].max(start);
-                let other = &above[self.offsets[column]..self.offsets[column + 1]];
-                let left = &other[begin - self.starts[column]..];
-                let known = dot(&own[begin - start..column - start], left);
-                own[column - start] = (own[column - start] - known) * left[column - begin];
+        for column in 0..self.starts.len() {
+            let start = self.starts[column];
+            let (before, rest) = self.blocks.split_at_mut(self.offsets[column]);
+            let own = &mut rest[..=column - start];
+            for row in start..column {
+                let begin = self.starts[row].max(start);
+                let other = &before[self.offsets[row]..self.offsets[row + 1]];
+                let other = &other[begin - self.starts[row]..];
+                let (known, open) = own.split_at_mut(row - start);
+                let mut block = open[0];
+                for (left, right) in other.iter().zip(&known[begin - start..]) {
+                    subtract_product(left, right, &mut block);
+                }
+                divide(&other[row - begin], &mut block);
+                open[0] = block;
             }
-            let (before, last) = own.split_at_mut(row - start);
-            let pivot = last[0] - dot(before, before);
-            if pivot.is_nan() || pivot <= 0.0 {
+            let (known, last) = own.split_at_mut(column - start);
+            for block in known.iter() {
+                subtract_product(block, block, &mut last[0]);
+            }
+            if !factor_diagonal(&mut last[0]) {
                 return false;
             }
-            // The diagonal holds its inverse: rows are divided by it many times.
-            last[0] = 1.0 / pivot.sqrt();
         }
         true
     }
 
-    /// Solves for two right-hand sides in place.
+    /// Solves for two right-hand sides in place, blocks of both one after another.
     pub(super) fn solve(&self, sides: &mut [[f64; 2]]) {
-        for row in 0..self.starts.len() {
-            let start = self.starts[row];
-            let own = &self.entries[self.offsets[row]..self.offsets[row + 1]];
-            let mut value = sides[row];
-            for (entry, known) in own.iter().zip(&sides[start..row]) {
-                value[0] -= entry * known[0];
-                value[1] -= entry * known[1];
+        let (sides, _) = sides.as_chunks_mut::<M>();
+        for column in 0..self.starts.len() {
+            let start = self.starts[column];
+            let own = &self.blocks[self.offsets[column]..self.offsets[column + 1]];
+            let mut value = sides[column];
+            for (block, known) in own.iter().zip(&sides[start..column]) {
+                for t in 0..M {
+                    for b in 0..M {
+                        value[b][0] -= block[t][b] * known[t][0];
+                        value[b][1] -= block[t][b] * known[t][1];
+                    }
+                }
             }
-            let inverse = own[row - start];
-            sides[row] = value.map(|value| value * inverse);
+            let diagonal = &own[column - start];
+            for t in 0..M {
+                value[t] = value[t].map(|part| part * diagonal[t][t]);
+                for b in t + 1..M {
+                    value[b][0] -= diagonal[t][b] * value[t][0];
+                    value[b][1] -= diagonal[t][b] * value[t][1];
+                }
+            }
+            sides[column] = value;
         }
-        for row in (0..self.starts.len()).rev() {
-            let start = self.starts[row];
-            let own = &self.entries[self.offsets[row]..self.offsets[row + 1]];
-            let inverse = own[row - start];
-            let value = sides[row].map(|value| value * inverse);
-            sides[row] = value;
-            for (entry, open) in own.iter().zip(&mut sides[start..row]) {
-                open[0] -= entry * value[0];
-                open[1] -= entry * value[1];
+        for column in (0..self.starts.len()).rev() {
+            let start = self.starts[column];
+            let own = &self.blocks[self.offsets[column]..self.offsets[column + 1]];
+            let diagonal = &own[column - start];
+            let mut value = sides[column];
+            for t in (0..M).rev() {
+                for b in t + 1..M {
+                    value[t][0] -= diagonal[t][b] * value[b][0];
+                    value[t][1] -= diagonal[t][b] * value[b][1];
+                }
+                value[t] = value[t].map(|part| part * diagonal[t][t]);
+            }
+            sides[column] = value;
+            for (block, open) in own.iter().zip(&mut sides[start..column]) {
+                for t in 0..M {
+                    for b in 0..M {
+                        open[t][0] -= block[t][b] * value[b][0];
+                        open[t][1] -= block[t][b] * value[b][1];
+                    }
+                }
             }
         }
     }
 }
 
-/// Scalar product over the shorter length, in four sums so that lanes can be used.
+/// `block - left^T right`.
 #[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let count = a.len().min(b.len());
-    let (a, b) = (&a[..count], &b[..count]);
-    let (a_fours, a_rest) = a.as_chunks::<4>();
-    let (b_fours, b_rest) = b.as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for (a, b) in a_fours.iter().zip(b_fours) {
-        for lane in 0..4 {
-            sums[lane] += a[lane] * b[lane];
+fn subtract_product<const M: usize>(left: &Block<M>, right: &Block<M>, block: &mut Block<M>) {
+    for a in 0..M {
+        let mut row = block[a];
+        for t in 0..M {
+            for b in 0..M {
+                row[b] -= left[t][a] * right[t][b];
+            }
+        }
+        block[a] = row;
+    }
+}
+
+/// `U^-T block` for a factored diagonal block, whose own diagonal holds inverses.
+#[inline]
+fn divide<const M: usize>(diagonal: &Block<M>, block: &mut Block<M>) {
+    for t in 0..M {
+        let row = block[t].map(|value| value * diagonal[t][t]);
+        block[t] = row;
+        for a in t + 1..M {
+            for b in 0..M {
+                block[a][b] -= diagonal[t][a] * row[b];
+            }
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// Cholesky of a block, with the inverses of its pivots on the diagonal.
+fn factor_diagonal<const M: usize>(block: &mut Block<M>) -> bool {
+    for t in 0..M {
+        let pivot = block[t][t];
+        if pivot.is_nan() || pivot <= 0.0 {
+            return false;
+        }
+        let inverse = 1.0 / pivot.sqrt();
+        for b in t + 1..M {
+            block[t][b] *= inverse;
+        }
+        block[t][t] = inverse;
+        for a in t + 1..M {
+            for b in a..M {
+                block[a][b] -= block[t][a] * block[t][b];
+            }
+        }
+    }
+    true
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Rows in two overlapping blocks.
-    fn matrix() -> (ProfileMatrix, Vec<Vec<f64>>) {
+    /// Columns in two overlapping groups of blocks of two.
+    fn matrix() -> (ProfileMatrix<2>, Vec<Vec<f64>>) {
         let starts = vec![0, 0, 0, 0, 2, 2, 2];
-        let mut full = vec![vec![0.0; 7]; 7];
+        let mut full = vec![vec![0.0; 14]; 14];
         let mut profile = ProfileMatrix::new(starts.clone());
-        for row in 0..7 {
-            for column in starts[row]..=row {
-                let value = if row == column {
-                    5.0 + row as f64
-                } else {
-                    1.0 / (1.0 + (row * 3 + column) as f64)
-                };
-                full[row][column] = value;
-                full[column][row] = value;
-                profile.part::<1>(row, column)[0] += value;
+        for column in 0..7 {
+            for row in starts[column]..=column {
+                for a in 0..2 {
+                    for b in 0..2 {
+                        let (i, j) = (2 * row + a, 2 * column + b);
+                        let value = if i == j {
+                            9.0 + i as f64
+                        } else {
+                            1.0 / (1.0 + (i.min(j) * 3 + i.max(j)) as f64)
+                        };
+                        full[i][j] = value;
+                        full[j][i] = value;
+                        profile.block(row, column)[a][b] += value;
+                    }
+                }
             }
         }
         (profile, full)
@@ -132,23 +201,24 @@ mod tests {
     #[test]
     fn the_solution_satisfies_the_matrix() {
         let (mut profile, full) = matrix();
-        let sides: Vec<[f64; 2]> = (0..7).map(|i| [i as f64 - 2.0, (i * i) as f64]).collect();
+        let sides: Vec<[f64; 2]> = (0..14).map(|i| [i as f64 - 2.0, (i * i) as f64]).collect();
         let mut x = sides.clone();
         assert!(profile.factor());
         profile.solve(&mut x);
-        for row in 0..7 {
+        for row in 0..14 {
             for side in 0..2 {
-                let sum: f64 = (0..7).map(|k| full[row][k] * x[k][side]).sum();
-                assert!((sum - sides[row][side]).abs() < 1e-12);
+                let sum: f64 = (0..14).map(|k| full[row][k] * x[k][side]).sum();
+                assert!((sum - sides[row][side]).abs() < 1e-11);
             }
         }
     }
 
     #[test]
     fn what_is_not_positive_is_told() {
-        let mut profile = ProfileMatrix::new(vec![0, 0]);
-        profile.part::<1>(0, 0)[0] = 1.0;
-        profile.part::<2>(1, 0).copy_from_slice(&[2.0, 1.0]);
+        let mut profile = ProfileMatrix::<1>::new(vec![0, 0]);
+        profile.block(0, 0)[0][0] = 1.0;
+        profile.block(0, 1)[0][0] = 2.0;
+        profile.block(1, 1)[0][0] = 1.0;
         assert!(!profile.factor());
     }
 }

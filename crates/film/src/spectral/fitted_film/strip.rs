@@ -9,6 +9,7 @@
 
 use super::{FittedFilm, dot};
 use crate::spectral::answer::{AlignedFigures, AlignedForce};
+use crate::spectral::profile::Block;
 use std::f64::consts::TAU;
 
 /// One quadrature point.
@@ -120,15 +121,21 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 }
             }
         }
+        self.add_blocks(element, &blocks);
+    }
+
+    /// Adds the blocks of an element, products of slopes at its nodes times what is conducted there.
+    fn add_blocks(&mut self, element: usize, blocks: &[[Block<M>; 3]; MOST_NODES]) {
+        let degree = self.accuracy.degree;
         for i in 0..=degree {
-            let Some(row) = self.unknown(element * degree + i) else {
+            let Some(column) = self.unknown(element * degree + i) else {
                 continue;
             };
             for j in 0..=i {
-                let Some(column) = self.unknown(element * degree + j) else {
+                let Some(row) = self.unknown(element * degree + j) else {
                     continue;
                 };
-                let mut block = zero;
+                let mut block = *self.matrix.block(row / M, column / M);
                 for r in 0..=degree {
                     let factor = self.element.slopes[r][i] * self.element.slopes[r][j];
                     for k in 0..M {
@@ -140,18 +147,13 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 let (forth, back) = (self.element.slopes[j][i], self.element.slopes[i][j]);
                 for k in 0..M {
                     for l in 0..M {
-                        block[k][l] += forth * blocks[j][1][l][k] + back * blocks[i][1][k][l];
+                        block[k][l] += forth * blocks[j][1][k][l] + back * blocks[i][1][l][k];
                         if i == j {
                             block[k][l] += blocks[i][2][k][l];
                         }
                     }
                 }
-                for (k, values) in block.iter().enumerate() {
-                    let entries = self.matrix.part::<M>(row + k, column);
-                    for (entry, value) in entries.iter_mut().zip(values) {
-                        *entry += value;
-                    }
-                }
+                *self.matrix.block(row / M, column / M) = block;
             }
         }
     }
