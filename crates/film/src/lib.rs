@@ -45,6 +45,7 @@ mod settling;
 pub mod shape;
 mod shape_table;
 pub mod solver;
+pub mod spectral;
 pub mod supply;
 pub mod surfaces;
 
@@ -59,10 +60,11 @@ pub use finish::{Finish, RoughFinish};
 pub use flow_factors::FlowFactors;
 pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
-    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent, Warmed,
+    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent, Warmed, Warming,
 };
 pub use grid::Grid;
 pub use journal_state::JournalState;
 pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;
+pub use spectral::OnlineFilm;

@@ -7,7 +7,7 @@ mod common;
 use common::{big_end, conditions, feed_hole, oil};
 use sommerfeld_film::{
     Bearing, Cavitation, Feature, Feed, FeedLine, FilmForce, FilmSolver, Inlet, JournalState,
-    Outcome, ProfileTable, Shape, Step,
+    OnlineFilm, Outcome, ProfileTable, Shape, Step,
 };
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -164,6 +164,31 @@ fn an_update_allocates_nothing_after_the_first() {
         film.accept_step();
     }
     assert_eq!(allocations(), before, "with profiles");
+    // Films on line.
+    for cavitation in [Cavitation::Gumbel, Cavitation::Reynolds] {
+        let bearing = Bearing {
+            feeds: Vec::new(),
+            cavitation,
+            ..plain()
+        };
+        let mut film = OnlineFilm::aligned(&bearing, &oil()).unwrap();
+        let aligned = |k| JournalState {
+            tilt: [0.0; 2],
+            tilt_rate: [0.0; 2],
+            ..state(&bearing, k, duration)
+        };
+        let first = aligned(0);
+        film.linearise(&first, Step::Steady, &conditions()).unwrap();
+        let before = allocations();
+        for k in 1..=10 {
+            let state = aligned(k);
+            let answer = film.linearise(&state, Step::Steady, &conditions()).unwrap();
+            assert_eq!(answer.outcome, Outcome::Converged);
+            assert!(film.summary().peak_film_pressure.value > 0.0);
+            film.accept_step();
+        }
+        assert_eq!(allocations(), before, "{cavitation:?} on line");
+    }
     // The counter counts.
     let before = allocations();
     drop(std::hint::black_box(vec![0_u8; 64]));

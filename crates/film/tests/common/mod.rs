@@ -1,6 +1,7 @@
 //! Bearings that the tests share.
 #![allow(dead_code, clippy::panic, clippy::unwrap_used)]
 
+pub mod direct;
 pub mod planar;
 pub mod recomputed;
 pub mod shaped;

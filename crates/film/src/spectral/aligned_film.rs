@@ -1,0 +1,198 @@
+//! What does the film of a plain bearing put on an aligned journal, in numbers without units?
+//!
+//! ```text
+//! (H^3 p_theta)_theta + (D/B)^2 (H^3 p_Z)_Z = -(w_r cos(theta) + w_t sin(theta)),   theta from the narrowest gap
+//! ```
+//! One problem for all aligned films: its force depends on the eccentricity, the width and the direction
+//! of `(w_r, w_t) = (eps_dot, -eps omega_eff/2)`, and is of degree 1 in its size. Pressures are over
+//! 12 eta R^2/c^2; the scaled ones of the paper are twelve times that, over eta/psi^2.
+//! Reference: Marsalek, Novotny, Drapal, Pistek (2012), equations 4 to 9.
+
+use super::answer::{AlignedFigures, AlignedForce};
+use super::fitted_film::{Accuracy, FittedFilm};
+use super::half_film::HalfFilm;
+use crate::bearing::Cavitation;
+use crate::force::{FilmError, Outcome};
+
+/// How exact a film is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Precision {
+    /// For films in the loop of an orbit.
+    OnLine,
+    /// For tables: error of the force below 2e-5 of its size up to a relative eccentricity of 0.99 and
+    /// B/D of 1.5.
+    Fine,
+}
+
+/// The film of an aligned journal.
+#[derive(Debug, Clone)]
+pub struct AlignedFilm {
+    kernel: Kernel,
+    is_at_rest: bool,
+}
+
+/// The film of the closure, the width and the precision.
+#[derive(Debug, Clone)]
+enum Kernel {
+    HalfNarrow(Box<HalfFilm<4, 4>>),
+    HalfWide(Box<HalfFilm<6, 6>>),
+    HalfFine(Box<HalfFilm<8, 8>>),
+    FittedNarrow(Box<FittedFilm<4, 6>>),
+    FittedWide(Box<FittedFilm<5, 7>>),
+    FittedWider(Box<FittedFilm<6, 8>>),
+    FittedFine(Box<FittedFilm<7, 9>>),
+}
+
+/// Largest width over diameter that four shapes are enough for.
+const NARROW: f64 = 0.6;
+/// Largest width over diameter that five are enough for.
+const WIDE: f64 = 1.0;
+
+impl AlignedFilm {
+    /// Film of a bearing of this width over diameter, all ends at cavitation pressure, cyclic.
+    ///
+    /// # Errors
+    /// [`FilmError::Unsupported`] for a closure with a memory and for a width that is not positive.
+    pub fn new(
+        cavitation: Cavitation,
+        width_ratio: f64,
+        precision: Precision,
+    ) -> Result<Self, FilmError> {
+        if !(width_ratio.is_finite() && width_ratio > 0.0) {
+            return Err(FilmError::Unsupported {
+                reason: "the width of an on-line film must be positive",
+            });
+        }
+        let d_over_b = 1.0 / width_ratio;
+        let is_narrow = width_ratio <= NARROW;
+        let fitted = |elements, degree, terms, tolerance| Accuracy {
+            elements,
+            degree,
+            terms,
+            tolerance,
+        };
+        let kernel = match (cavitation, precision) {
+            (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
+                Kernel::HalfNarrow(Box::new(HalfFilm::new(d_over_b, 64)))
+            }
+            (Cavitation::Gumbel, Precision::OnLine) => {
+                Kernel::HalfWide(Box::new(HalfFilm::new(d_over_b, 64)))
+            }
+            (Cavitation::Gumbel, Precision::Fine) => {
+                Kernel::HalfFine(Box::new(HalfFilm::new(d_over_b, 256)))
+            }
+            (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
+                let accuracy = fitted(5, 6, 3, 3e-6);
+                Kernel::FittedNarrow(Box::new(FittedFilm::new(d_over_b, accuracy)))
+            }
+            (Cavitation::Reynolds, Precision::OnLine) if width_ratio > WIDE => {
+                let accuracy = fitted(6, 7, 3, 3e-6);
+                Kernel::FittedWider(Box::new(FittedFilm::new(d_over_b, accuracy)))
+            }
+            (Cavitation::Reynolds, Precision::OnLine) => {
+                let accuracy = fitted(6, 6, 3, 3e-6);
+                Kernel::FittedWide(Box::new(FittedFilm::new(d_over_b, accuracy)))
+            }
+            (Cavitation::Reynolds, Precision::Fine) => {
+                let accuracy = fitted(8, 7, 4, 1e-7);
+                Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, accuracy)))
+            }
+            (Cavitation::MassConserving, _) => {
+                return Err(FilmError::Unsupported {
+                    reason: "a film that remembers is not solved on line: use model = \"field\" for \
+                             cavitation = \"mass-conserving\"",
+                });
+            }
+        };
+        Ok(Self {
+            kernel,
+            is_at_rest: true,
+        })
+    }
+
+    /// Force at a relative eccentricity for a motion `(w_r, w_t)`, 1/s, along and across the line of
+    /// centres; [`Outcome::NotConverged`] where the fronts of a film after Reynolds do not settle.
+    /// A film at rest has no force; its derivatives by motion are those of a closing gap, or of the full
+    /// film after Gumbel.
+    ///
+    /// # Errors
+    /// [`FilmError::Contact`] for a relative eccentricity not from 0 to below 1, [`FilmError::NotFinite`]
+    /// for a motion that is no number.
+    pub fn force(
+        &mut self,
+        relative_eccentricity: f64,
+        motion: [f64; 2],
+    ) -> Result<(AlignedForce, Outcome), FilmError> {
+        if !(0.0..1.0).contains(&relative_eccentricity) {
+            return Err(FilmError::Contact {
+                angle_deg: 0.0,
+                axial_mm: 0.0,
+                gap_um: 0.0,
+            });
+        }
+        if !motion.iter().all(|part| part.is_finite()) {
+            return Err(FilmError::NotFinite { name: "motion" });
+        }
+        self.is_at_rest = motion == [0.0; 2];
+        let eps = relative_eccentricity;
+        let (found, settled) = match &mut self.kernel {
+            Kernel::HalfNarrow(film) => (film.force(eps, motion), true),
+            Kernel::HalfWide(film) => (film.force(eps, motion), true),
+            Kernel::HalfFine(film) => (film.force(eps, motion), true),
+            Kernel::FittedNarrow(film) => film.force(eps, motion),
+            Kernel::FittedWide(film) => film.force(eps, motion),
+            Kernel::FittedWider(film) => film.force(eps, motion),
+            Kernel::FittedFine(film) => film.force(eps, motion),
+        };
+        let outcome = if settled {
+            Outcome::Converged
+        } else {
+            Outcome::NotConverged
+        };
+        Ok((found, outcome))
+    }
+
+    /// The same for the paper's scaled pressure and motion `(2 eps_dot, omega_eff)`: the integrals F1
+    /// and F2 of `Pi cos(phi)` and `Pi sin(phi)`, phi from the widest gap, so that the force on the journal is
+    /// `eta D B/(4 psi^2) F`; with its derivatives by relative eccentricity at fixed
+    /// `(2 eps_dot, omega_eff)` and by these two.
+    ///
+    /// # Errors
+    /// As [`AlignedFilm::force`].
+    pub fn scaled_force(
+        &mut self,
+        relative_eccentricity: f64,
+        [twice_rate, effective_speed]: [f64; 2],
+    ) -> Result<(AlignedForce, Outcome), FilmError> {
+        let eps = relative_eccentricity;
+        let motion = [0.5 * twice_rate, -0.5 * eps * effective_speed];
+        let (found, outcome) = self.force(eps, motion)?;
+        let scaled = AlignedForce {
+            force: found.force.map(|force| 12.0 * force),
+            by_eccentricity: [0, 1].map(|row| {
+                12.0 * found.by_eccentricity[row] - 6.0 * effective_speed * found.by_motion[row][1]
+            }),
+            by_motion: found
+                .by_motion
+                .map(|[along, across]| [6.0 * along, -6.0 * eps * across]),
+        };
+        Ok((scaled, outcome))
+    }
+
+    /// Figures of the film last solved.
+    #[must_use]
+    pub fn figures(&self) -> AlignedFigures {
+        if self.is_at_rest {
+            return AlignedFigures::default();
+        }
+        match &self.kernel {
+            Kernel::HalfNarrow(film) => film.figures(),
+            Kernel::HalfWide(film) => film.figures(),
+            Kernel::HalfFine(film) => film.figures(),
+            Kernel::FittedNarrow(film) => film.figures(),
+            Kernel::FittedWide(film) => film.figures(),
+            Kernel::FittedWider(film) => film.figures(),
+            Kernel::FittedFine(film) => film.figures(),
+        }
+    }
+}
