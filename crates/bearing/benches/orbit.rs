@@ -5,7 +5,8 @@
 //! half a film for an aligned journal, all of it for one whose tilt is prescribed, and a film that
 //! remembers. With `physics` in its name: the film that remembers on 128 x 32 cells, plain and with rough
 //! surfaces in contact and an oil that thickens and is compressed (bar: twice the time per cycle); and the
-//! bearing at rest with one temperature and with one for each cell (bar: three times). Beside the times stand the figures of the cycle, which a faster orbit must not move.
+//! bearing at rest with one temperature and with one for each cell (bar: three
+//! times). Beside the times stand the figures of the cycle, which a faster orbit must not move.
 
 #![allow(
     clippy::panic,
@@ -155,7 +156,7 @@ fn warm() {
     };
     let mut fastest = [f64::INFINITY; 2];
     let mut counts = [0; 3];
-    for _ in 0..5 {
+    for _ in 0..20 {
         let mut film = FilmSolver::aligned(&bearing, &oil, FINE).unwrap();
         let clock = Instant::now();
         let rest = find_equilibrium(&mut film, &bearing, &request, &CONDITIONS).unwrap();

@@ -169,6 +169,9 @@ pub(crate) struct NewtonLimits {
     /// Take the last step too (without another film update; the reaction follows by its tangent).
     /// Not for films with history, whose content belongs to the position they were asked at.
     pub takes_last_step: bool,
+    /// Ends only with a settled film; else also while its cavitated set still moves, for callers that come
+    /// back.
+    pub needs_settled: bool,
 }
 
 impl NewtonLimits {
@@ -230,7 +233,7 @@ impl Balance {
     }
 
     /// Unbalanced force (N) and moment over the arm (N).
-    fn residual(&self, position: Coordinates, linearised: &Linearised) -> Coordinates {
+    pub(crate) fn residual(&self, position: Coordinates, linearised: &Linearised) -> Coordinates {
         let force = linearised.reaction.force();
         let moment = linearised.reaction.moment();
         let acceleration = self.motion.acceleration(position);
@@ -247,7 +250,7 @@ impl Balance {
     /// Newton step in m and rad. A film that has run empty on one side does not resist motion that
     /// way: where the step of a moving journal leaves the gap, a resistance is added that lets the
     /// residual move the journal by about half a gap (Levenberg); it fades with the residual.
-    fn newton_step(
+    pub(crate) fn newton_step(
         &self,
         residual: Coordinates,
         tangent: &Tangent,
@@ -372,7 +375,7 @@ impl Balance {
                 break;
             };
             let relative_step = length(step, self.arm) / gap.abs();
-            let done = linearised.settled
+            let done = (linearised.settled || !limits.needs_settled)
                 && size <= limits.residual
                 && relative_step <= limits.last_step();
             let taken = if done {

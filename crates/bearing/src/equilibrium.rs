@@ -4,17 +4,19 @@
 //! Unknowns: position (m) and, when a moment is given, tilt (rad), in the shell frame.
 //! Method: Newton ([`crate::balance`]) from a start on the short-bearing path, calibrated by one
 //! probe of the film at eps 0.5; where that fails, the massless journal is let to settle in implicit
-//! time steps of growing length, which the damping of any film keeps inside the gap.
+//! time steps of growing length, which the damping of any film keeps inside the gap. On a soft shell,
+//! whose film stays far from where it was when the journal moves by its clearance, the load is raised
+//! from a light one instead.
 //! References: F. W. Ocvirk, NACA TN 2808 (1952) (start value); C. T. Kelley, D. E. Keyes, SIAM J.
 //! Numer. Anal. 35 (1998) 508, 10.1137/S0036142996304796 (pseudo-transient continuation).
 
 use crate::balance::{Balance, Balanced, IterationRow, Motion, NewtonLimits};
-use crate::motion::{Coordinates, coordinates, with_motion};
+use crate::motion::{Coordinates, add, coordinates, length, with_motion};
 use serde::{Deserialize, Serialize};
 use sommerfeld_film::closed_form::short;
 use sommerfeld_film::{
-    Bearing, Conditions, FilmError, FilmForce, FilmSummary, JournalState, Outcome, Reaction, Step,
-    Tangent,
+    Bearing, Conditions, FilmError, FilmForce, FilmSummary, JournalState, Linearised, Outcome,
+    Reaction, Step, Tangent,
 };
 
 /// What is to be in equilibrium.
@@ -26,7 +28,7 @@ pub struct EquilibriumRequest {
     pub moment: Option<[f64; 2]>,
     /// Speeds, surface angles and the held (or first) tilt; its position and rates are not used.
     pub frame: JournalState,
-    /// Where to start, m; `None` looks for a start on the short-bearing path.
+    /// Where to start, m, with the film as it was left; `None` looks for a start on the short-bearing path.
     pub start: Option<[f64; 2]>,
     /// When to stop.
     pub settings: EquilibriumSettings,
@@ -97,6 +99,21 @@ impl Equilibrium {
 /// its residual is this small.
 const UNLOADED_SHARE: f64 = 1e-6;
 
+/// First share of the load where it is raised: films of soft shells are wide open under it.
+const LIGHT_LOAD: f64 = 0.02;
+
+/// Longest step of the journal over the clearance while a settled film is followed.
+const LARGEST_STRIDE: f64 = 0.03;
+
+/// Unbalanced force over the load where following hands over to the interleaved search.
+const FOLLOWED: f64 = 1e-6;
+
+/// Settled films on the way to one equilibrium: across the clearance and some of Newton's.
+const FOLLOWING_STEPS: usize = 50;
+
+/// Equilibria on the way to the whole load.
+const RAISING_STEPS: usize = 40;
+
 /// Longest search by settling in time, in implicit steps.
 const SETTLING_STEPS: usize = 80;
 
@@ -111,18 +128,32 @@ pub fn find_equilibrium(
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
 ) -> Result<Equilibrium, FilmError> {
-    search_from(film, bearing, request, conditions, None)
+    let once = Round {
+        start: None,
+        goes_on: false,
+    };
+    search_from(film, bearing, request, conditions, &once)
 }
 
-/// [`find_equilibrium`] next to one that was found: without a probe of the film elsewhere.
-pub(crate) fn find_beside(
+/// Where and how a search for one of a row of equilibria begins.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Round {
+    /// Where the journal may be: without a probe of the film elsewhere. `None` in the first round.
+    pub start: Option<Coordinates>,
+    /// The row goes on: the film need not be settled, the journal is where the last step leads, of which the
+    /// film does not know yet, and nobody asks for a summary.
+    pub goes_on: bool,
+}
+
+/// [`find_equilibrium`] as one of a row in which the film changes.
+pub(crate) fn find_in_round(
     film: &mut dyn FilmForce,
     bearing: &Bearing,
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
-    found: &Equilibrium,
+    round: &Round,
 ) -> Result<Equilibrium, FilmError> {
-    search_from(film, bearing, request, conditions, Some(found))
+    search_from(film, bearing, request, conditions, round)
 }
 
 fn search_from(
@@ -130,7 +161,7 @@ fn search_from(
     bearing: &Bearing,
     request: &EquilibriumRequest,
     conditions: &Conditions<'_>,
-    beside: Option<&Equilibrium>,
+    round: &Round,
 ) -> Result<Equilibrium, FilmError> {
     let mut search = Search {
         balance: Balance {
@@ -147,32 +178,41 @@ fn search_from(
             residual: request.settings.residual_tolerance,
             step: request.settings.step_tolerance,
             gap_loss: request.settings.largest_gap_loss,
-            takes_last_step: false,
+            takes_last_step: round.goes_on,
+            needs_settled: !round.goes_on,
         },
         clearance: bearing.radial_clearance,
         conditions,
     };
-    let start = match beside {
-        Some(found) if search.balance.force_scale > 0.0 => coordinates(&found.state),
+    let mut probes = 0;
+    let start = match round.start {
+        Some(start) if search.balance.force_scale > 0.0 => start,
         _ => match search.start(film, request)? {
-            Start::At(start) => start,
+            Start::At(start) => {
+                probes = 1;
+                start
+            }
             Start::Nowhere(outcome) => return Ok(search.failed(film, outcome)),
         },
     };
-    let mut found = search
-        .balance
-        .find(film, conditions, start, &search.limits)?;
-    if found.outcome != Outcome::Converged {
-        found = search.settle(film, start, found)?;
-    }
+    let is_soft = bearing.elasticity.compliance() > 0.0;
+    let found = if is_soft {
+        search.find_on_soft_shell(film, start, request.start.is_some())?
+    } else {
+        search.find(film, start)?
+    };
     Ok(Equilibrium {
         state: found.state,
         reaction: found.linearised.reaction,
-        summary: film.summary(),
+        summary: if round.goes_on {
+            FilmSummary::default()
+        } else {
+            film.summary()
+        },
         tangent: found.linearised.tangent,
         residual: found.residual,
         table: found.table,
-        film_updates: found.film_updates + 1,
+        film_updates: found.film_updates + probes,
         outcome: found.outcome,
     })
 }
@@ -206,6 +246,13 @@ impl Search<'_> {
             1.0
         };
         let load_angle = load_y.atan2(load_x);
+        let given = request.start.map(|[x, y]| {
+            let [tilt_x, tilt_y] = self.balance.frame.tilt;
+            self.inside(film, [x, y, tilt_x, tilt_y])
+        });
+        if let (Some(start), true) = (given, load > 0.0) {
+            return Ok(Start::At(start));
+        }
         let probe_eps: f64 = 0.5;
         let probe = self.inside(film, self.on_path(probe_eps, load_angle, sense));
         let state = with_motion(&self.balance.frame, probe, [0.0; 4]);
@@ -221,9 +268,8 @@ impl Search<'_> {
             .flat_map(|row| &row[..2])
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
         self.balance.force_scale = load.max(UNLOADED_SHARE * stiffness * self.clearance);
-        if let Some([x, y]) = request.start {
-            let [tilt_x, tilt_y] = self.balance.frame.tilt;
-            return Ok(Start::At(self.inside(film, [x, y, tilt_x, tilt_y])));
+        if let Some(start) = given {
+            return Ok(Start::At(start));
         }
         let force = answer.reaction.force();
         let size = force[0].hypot(force[1]);
@@ -269,6 +315,130 @@ impl Search<'_> {
             inside[1] *= 0.9;
         }
         inside
+    }
+
+    /// Newton, and where it fails the journal left to settle.
+    fn find(&self, film: &mut dyn FilmForce, start: Coordinates) -> Result<Balanced, FilmError> {
+        let found = self
+            .balance
+            .find(film, self.conditions, start, &self.limits)?;
+        match found.outcome {
+            Outcome::Converged => Ok(found),
+            _ => self.settle(film, start, found),
+        }
+    }
+
+    /// The same on a soft shell: a start that was given is followed with settled films, one that was not is
+    /// left to Newton first, and then the load is raised.
+    fn find_on_soft_shell(
+        &self,
+        film: &mut dyn FilmForce,
+        start: Coordinates,
+        is_given: bool,
+    ) -> Result<Balanced, FilmError> {
+        let mut updates = 0;
+        let mut near = start;
+        if is_given && let Some(at) = self.follow(film, &self.balance, start, &mut updates)? {
+            near = at;
+        }
+        let mut found = self
+            .balance
+            .find(film, self.conditions, near, &self.limits)?;
+        if found.outcome != Outcome::Converged {
+            updates += found.film_updates;
+            found = match self.raise(film, &mut updates)? {
+                Some(raised) => self.find(film, raised)?,
+                None => self.find(film, start)?,
+            };
+        }
+        found.film_updates += updates;
+        Ok(found)
+    }
+
+    /// The film at a state, updated until its cavitated set and its shell rest; `None` where it has no
+    /// answer. Counts the updates.
+    fn settled(
+        &self,
+        film: &mut dyn FilmForce,
+        state: &JournalState,
+        updates: &mut usize,
+    ) -> Result<Option<Linearised>, FilmError> {
+        for _ in 0..film.capabilities().iteration_limit {
+            *updates += 1;
+            match film.linearise(state, Step::Steady, self.conditions) {
+                Ok(seen) if seen.outcome != Outcome::Converged => return Ok(None),
+                Ok(seen) if seen.settled => return Ok(Some(seen)),
+                Ok(_) => {}
+                Err(FilmError::Contact { .. } | FilmError::NotFinite { .. }) => return Ok(None),
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Follows Newton with films settled at every position, in steps of [`LARGEST_STRIDE`] at most.
+    /// `None` where it does not arrive.
+    fn follow(
+        &self,
+        film: &mut dyn FilmForce,
+        balance: &Balance,
+        from: Coordinates,
+        updates: &mut usize,
+    ) -> Result<Option<Coordinates>, FilmError> {
+        let mut position = from;
+        for _ in 0..FOLLOWING_STEPS {
+            let state = with_motion(&balance.frame, position, [0.0; 4]);
+            let Some(settled) = self.settled(film, &state, updates)? else {
+                break;
+            };
+            let residual = balance.residual(position, &settled);
+            let size = residual.iter().map(|r| r * r).sum::<f64>().sqrt();
+            if size <= FOLLOWED * balance.force_scale {
+                return Ok(Some(position));
+            }
+            let gap = film.minimum_gap(&state);
+            let Some(step) = balance.newton_step(residual, &settled.tangent, gap) else {
+                break;
+            };
+            let stride = length(step, balance.arm);
+            let share = f64::min(1.0, LARGEST_STRIDE * self.clearance / stride);
+            position = add(position, share, step);
+        }
+        Ok(None)
+    }
+
+    /// Raises the load from a light one, each equilibrium the start of the next, in steps that grow while
+    /// Newton follows and shrink where it does not. `None` where it does not arrive at the whole load.
+    fn raise(
+        &self,
+        film: &mut dyn FilmForce,
+        updates: &mut usize,
+    ) -> Result<Option<Coordinates>, FilmError> {
+        let sense = self.balance.frame.mean_speed().signum();
+        let [load_x, load_y] = self.balance.load;
+        let mut position = self.on_path(0.5, load_y.atan2(load_x), sense);
+        let (mut share, mut step) = (0.0, LIGHT_LOAD);
+        for _ in 0..RAISING_STEPS {
+            let next = f64::min(share + step, 1.0);
+            let part = |value: f64| next * value;
+            let balance = Balance {
+                load: self.balance.load.map(part),
+                moment: self.balance.moment.map(part),
+                force_scale: part(self.balance.force_scale),
+                ..self.balance
+            };
+            match self.follow(film, &balance, position, updates)? {
+                Some(found) => {
+                    position = found;
+                    (share, step) = (next, 1.5 * step);
+                    if share >= 1.0 {
+                        return Ok(Some(position));
+                    }
+                }
+                None => step *= 0.5,
+            }
+        }
+        Ok(None)
     }
 
     /// Lets the massless journal settle in implicit time steps, then tries Newton again.

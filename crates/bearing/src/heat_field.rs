@@ -4,21 +4,26 @@
 //! temperatures are those of the heat that this film makes and its oil carries
 //! ([`sommerfeld_film::energy`]).
 //! Unknowns: position and tilt of the journal; temperature (K) of every cell and feed.
-//! Method: the equilibrium and the energy equation in turn; each round moves the temperatures by a share
-//! of their change, because a warmer film makes less heat, so that a whole change goes too far. The share
-//! falls where changes grow, and comes back. The journal is found to less while temperatures still move. Ends
-//! where no temperature changes by more than the tolerance.
+//! Method: the equilibrium and the energy equation in turn, on coarser grids first. A round foresees that a
+//! warmer film makes less heat; the rounds before it are mixed in (`mixing`), and the journal's positions
+//! with them. While temperatures still move, the journal goes one step of Newton per round or few, and the
+//! cavitated set need not be settled. Ends where no temperature changes by more than the tolerance, with an
+//! exact equilibrium and the heat as it was made.
 
-use crate::equilibrium::{Equilibrium, EquilibriumRequest, find_beside, find_equilibrium};
+use crate::equilibrium::{Equilibrium, EquilibriumRequest, Round, find_in_round};
+use crate::mixing::{DEPTH, Mixing};
+use crate::motion::{Coordinates, coordinates};
 use serde::{Deserialize, Serialize};
-use sommerfeld_film::{Bearing, Conditions, FilmError, FilmForce, Outcome, Surroundings, Warmed};
+use sommerfeld_film::{
+    Bearing, Conditions, FilmError, FilmForce, Outcome, Surroundings, Warmed, Warming,
+};
 
 /// When the rounds end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HeatFieldSettings {
     /// Largest change of a temperature that may be left out, K. Default 1e-3.
     pub tolerance: f64,
-    /// Rounds at most. Default 60.
+    /// Rounds at most, on each grid. Default 60.
     pub round_limit: usize,
 }
 
@@ -40,36 +45,26 @@ pub struct WarmEquilibrium {
     pub warmed: Warmed,
     /// Largest change of a temperature per round, K.
     pub changes: Vec<f64>,
-    /// Film updates of all rounds.
+    /// Film updates of all rounds, on the film's own grid: those on coarser ones cost a few of them.
     pub film_updates: usize,
     /// How it ended: [`Outcome::NoSolution`] where the heat has no way out.
     pub outcome: Outcome,
 }
 
-/// Largest share: what a film whose heat falls with its temperature can take.
-const FIRST_SHARE: f64 = 0.5;
-/// Smallest share.
-const LEAST_SHARE: f64 = 0.1;
-/// Changes above so many tolerances are followed with a journal found to these limits.
-const COARSE_CHANGES: f64 = 100.0;
-const COARSE_RESIDUAL: f64 = 1e-6;
-const COARSE_STEP: f64 = 1e-4;
-
-/// Share of the next round, from that of the last one and the ratio of its change to the one before. A
-/// change that grew was overshot; those of the first rounds, in which the ruptured film moves, may do so too,
-/// so that the share comes back.
-fn next_share(share: f64, ratio: f64) -> f64 {
-    if ratio > 1.1 {
-        (0.6 * share).max(LEAST_SHARE)
-    } else {
-        (1.3 * share).min(FIRST_SHARE)
-    }
-}
+/// While temperatures still move by a change, the journal is found to this share of it, per K: of the load,
+/// and of the gap. A K moves both by some hundredths.
+const JOURNAL_SHARE: f64 = 1e-2;
+/// Never to more than this share.
+const COARSEST: f64 = 0.1;
+/// Changes below so many tolerances are followed by rounds that find the journal as exactly as asked for.
+const NEARLY: f64 = 3.0;
+/// On a coarser grid, changes (K) below those that its cells differ by from finer ones are none.
+const COARSE_TOLERANCE: f64 = 1.0;
 
 /// Finds the equilibrium in the film's own temperatures.
 ///
 /// # Errors
-/// As [`find_equilibrium`]; [`FilmError::Unsupported`] for a film without a field of temperature.
+/// As [`crate::find_equilibrium`]; [`FilmError::Unsupported`] for a film without a field of temperature.
 pub fn warm_equilibrium(
     film: &mut dyn FilmForce,
     bearing: &Bearing,
@@ -83,45 +78,146 @@ pub fn warm_equilibrium(
             reason: "a field of temperature needs model = \"field\"",
         });
     }
-    let mut request = *request;
-    let mut found = WarmEquilibrium {
-        rest: find_equilibrium(film, bearing, &request, conditions)?,
-        warmed: Warmed::default(),
-        changes: Vec::new(),
-        film_updates: 0,
-        outcome: Outcome::NotConverged,
+    let search = Search {
+        bearing,
+        request,
+        conditions,
+        surroundings,
+        settings,
     };
-    let exact = request.settings;
-    let mut share = FIRST_SHARE;
-    for _ in 0..settings.round_limit {
-        found.film_updates += found.rest.film_updates;
-        if found.rest.outcome != Outcome::Converged {
-            found.outcome = found.rest.outcome;
-            return Ok(found);
-        }
-        film.account_heat(1.0);
-        let Some(warmed) = film.warm(surroundings, share) else {
-            found.outcome = Outcome::NoSolution;
-            return Ok(found);
+    search.nested(film, settings.tolerance)
+}
+
+struct Search<'a> {
+    bearing: &'a Bearing,
+    request: &'a EquilibriumRequest,
+    conditions: &'a Conditions<'a>,
+    surroundings: &'a Surroundings<'a>,
+    settings: &'a HeatFieldSettings,
+}
+
+/// What a round begins with.
+struct Begin {
+    /// Where the journal may be.
+    journal: Option<Coordinates>,
+    /// Largest change of the round before, K.
+    change: f64,
+    goes_on: bool,
+}
+
+impl Search<'_> {
+    /// From what the film on a coarser grid finds, if it does.
+    fn nested(
+        &self,
+        film: &mut dyn FilmForce,
+        tolerance: f64,
+    ) -> Result<WarmEquilibrium, FilmError> {
+        let rough = film
+            .coarser()
+            .map(|coarse| self.nested(coarse, COARSE_TOLERANCE));
+        let known = match rough {
+            Some(Ok(rough)) if rough.outcome == Outcome::Converged => {
+                film.take_over();
+                Some(coordinates(&rough.rest.state))
+            }
+            _ => None,
         };
-        found.warmed = warmed;
-        if let Some(before) = found.changes.last() {
-            share = next_share(share, warmed.change / before);
-        }
-        let still_moves = warmed.change > COARSE_CHANGES * settings.tolerance;
-        found.changes.push(warmed.change);
-        if warmed.change <= settings.tolerance {
-            found.outcome = Outcome::Converged;
-            return Ok(found);
-        }
-        if still_moves {
-            request.settings.residual_tolerance = exact.residual_tolerance.max(COARSE_RESIDUAL);
-            request.settings.step_tolerance = exact.step_tolerance.max(COARSE_STEP);
-        } else {
-            request.settings = exact;
-        }
-        request.frame.tilt = found.rest.state.tilt;
-        found.rest = find_beside(film, bearing, &request, conditions, &found.rest)?;
+        self.rounds(film, known, tolerance)
     }
-    Ok(found)
+
+    /// Film and temperatures in turn.
+    fn rounds(
+        &self,
+        film: &mut dyn FilmForce,
+        known: Option<Coordinates>,
+        tolerance: f64,
+    ) -> Result<WarmEquilibrium, FilmError> {
+        let mut begin = Begin {
+            journal: known,
+            change: f64::INFINITY,
+            goes_on: true,
+        };
+        let mut found = WarmEquilibrium {
+            rest: self.rest(film, &begin)?,
+            warmed: Warmed::default(),
+            changes: Vec::new(),
+            film_updates: 0,
+            outcome: Outcome::NotConverged,
+        };
+        let mut mixing = Mixing::new(DEPTH);
+        for _ in 0..self.settings.round_limit {
+            found.film_updates += found.rest.film_updates;
+            if found.rest.outcome != Outcome::Converged {
+                found.outcome = found.rest.outcome;
+                return Ok(found);
+            }
+            film.account_heat(1.0);
+            let Some(mut warming) = film.led_to(self.surroundings, true) else {
+                found.outcome = Outcome::NoSolution;
+                return Ok(found);
+            };
+            if !begin.goes_on && warming.warmed.change <= tolerance {
+                // What is said of the film is what it makes, not what it was foreseen to make.
+                warming = film.led_to(self.surroundings, false).unwrap_or(warming);
+            }
+            let change = warming.warmed.change;
+            found.warmed = warming.warmed;
+            found.changes.push(change);
+            // A coarser grid is only asked where to begin.
+            let is_exact = !begin.goes_on || tolerance > self.settings.tolerance;
+            if is_exact && change <= tolerance {
+                found.outcome = Outcome::Converged;
+                return Ok(found);
+            }
+            let goes_on = begin.goes_on && change > NEARLY * tolerance;
+            begin = self.next(film, &mut mixing, warming, begin.journal, &found.rest);
+            begin.goes_on = goes_on;
+            found.rest = self.rest(film, &begin)?;
+        }
+        if begin.goes_on {
+            begin.goes_on = false;
+            found.rest = self.rest(film, &begin)?;
+        }
+        Ok(found)
+    }
+
+    /// Warms the film to the mix of this round and those before it; the journal goes along.
+    fn next(
+        &self,
+        film: &mut dyn FilmForce,
+        mixing: &mut Mixing,
+        mut warming: Warming,
+        begun: Option<Coordinates>,
+        rest: &Equilibrium,
+    ) -> Begin {
+        let cells = warming.from.len();
+        let journal = coordinates(&rest.state);
+        warming.from.extend(begun.unwrap_or(journal));
+        warming.led_to.extend(journal);
+        let next = mixing.next(&warming.from, &warming.led_to, cells);
+        film.warm(&next[..cells]);
+        let mut journal = [0.0; 4];
+        journal.copy_from_slice(&next[cells..]);
+        Begin {
+            journal: Some(journal),
+            change: warming.warmed.change,
+            goes_on: true,
+        }
+    }
+
+    /// The journal in the film as warm as it is: as exactly as the temperatures deserve.
+    fn rest(&self, film: &mut dyn FilmForce, begin: &Begin) -> Result<Equilibrium, FilmError> {
+        let mut request = *self.request;
+        if begin.goes_on {
+            let share = (JOURNAL_SHARE * begin.change).min(COARSEST);
+            let exact = &mut request.settings;
+            exact.residual_tolerance = exact.residual_tolerance.max(share);
+            exact.step_tolerance = exact.step_tolerance.max(share / 3.0);
+        }
+        let round = Round {
+            start: begin.journal,
+            goes_on: begin.goes_on,
+        };
+        find_in_round(film, self.bearing, &request, self.conditions, &round)
+    }
 }

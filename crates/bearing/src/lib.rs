@@ -10,6 +10,7 @@ pub mod expansion;
 pub mod heat_balance;
 pub mod heat_field;
 pub mod load_cycle;
+mod mixing;
 pub mod motion;
 pub mod orbit;
 pub mod running_in;

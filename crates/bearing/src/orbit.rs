@@ -13,6 +13,7 @@
 use crate::balance::NewtonLimits;
 use crate::cycle_table::CycleTable;
 use crate::equilibrium::{EquilibriumRequest, EquilibriumSettings, find_equilibrium};
+use crate::mixing::Mixing;
 use crate::motion::{add, coordinates, length, with_motion};
 use crate::step_control::Substeps;
 use crate::supply_cycle::SupplyCycle;
@@ -200,13 +201,6 @@ pub fn warm_orbit(
     })
 }
 
-/// Shares of a change that a film takes: at first, from temperatures that may be far off and a film whose
-/// heat falls as it warms, and later.
-const FIRST_WARMING_SHARE: f64 = 0.7;
-const WARMING_SHARE: f64 = 0.95;
-/// Cycles with the first share.
-const FIRST_CYCLES: usize = 2;
-
 impl Run<'_> {
     /// Cycles until the orbit closes, and the temperatures with it.
     fn until_closed(&mut self, observer: &mut Observer<'_>) -> Result<JournalOrbit, FilmError> {
@@ -251,13 +245,16 @@ impl Run<'_> {
         let Some(heat) = self.heat else {
             return Some(true);
         };
-        let share = if self.changes.len() < FIRST_CYCLES {
-            FIRST_WARMING_SHARE
-        } else {
-            WARMING_SHARE
-        };
-        self.warmed = self.film.warm(&heat.surroundings, share)?;
+        let mut warming = self.film.led_to(&heat.surroundings, true)?;
+        if warming.warmed.change <= heat.tolerance {
+            warming = self.film.led_to(&heat.surroundings, false)?;
+        }
+        self.warmed = warming.warmed;
         self.changes.push(self.warmed.change);
+        let next = self
+            .mixing
+            .next(&warming.from, &warming.led_to, warming.from.len());
+        self.film.warm(&next);
         Some(self.warmed.change <= heat.tolerance)
     }
 }
@@ -283,6 +280,7 @@ struct Run<'a> {
     heat: Option<&'a CycleHeat<'a>>,
     warmed: Warmed,
     changes: Vec<f64>,
+    mixing: Mixing,
 }
 
 impl<'a> Run<'a> {
@@ -321,6 +319,7 @@ impl<'a> Run<'a> {
                 },
                 gap_loss: settings.largest_gap_loss,
                 takes_last_step: !capabilities.has_history,
+                needs_settled: true,
             },
             has_history: capabilities.has_history,
             film_solves: 0,
@@ -349,6 +348,8 @@ impl<'a> Run<'a> {
             heat: None,
             warmed: Warmed::default(),
             changes: Vec::new(),
+            // A cycle differs from the one before by its journal and film content too.
+            mixing: Mixing::new(0),
         })
     }
 

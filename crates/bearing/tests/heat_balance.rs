@@ -14,8 +14,8 @@ use sommerfeld_bearing::{
     find_equilibrium, warm_equilibrium,
 };
 use sommerfeld_film::{
-    Bearing, Cavitation, Conditions, Ends, FilmError, FilmShear, FilmSolver, Inlet, JournalState,
-    Outcome, Shape, Surroundings,
+    Bearing, Cavitation, Conditions, Ends, FilmError, FilmForce, FilmShear, FilmSolver, Inlet,
+    JournalState, Outcome, Shape, Surroundings,
 };
 use sommerfeld_oil::{DensityLaw, Lubricant, ViscosityLaw};
 use std::f64::consts::PI;
@@ -181,4 +181,37 @@ fn the_field_of_temperature_agrees_with_the_heat_balance() {
     // Oil that comes round again warms the inlet: hotter than one temperature for all, and less power.
     assert!(warmed.mean > KELVIN + 69.74 && power < 1733.0);
     assert!(warmed.hottest < KELVIN + 130.0);
+}
+
+/// Where one temperature sets the viscosity everywhere, the equation of the film's temperature leads the
+/// oil out as warm as the reference's heat balance says.
+#[test]
+fn the_field_of_an_oil_at_one_temperature_leaves_as_warm_as_the_reference() {
+    let (bearing, oil) = (bearing(), oil());
+    let rows = text_table("heat-balance/reference.csv");
+    let stated = |name: &str| -> f64 {
+        let row = rows.iter().find(|row| row[0] == name).unwrap();
+        row[1].parse().unwrap()
+    };
+    let mut film = FilmSolver::following(&bearing, &oil, GRID, 0.6).unwrap();
+    let conditions = Conditions {
+        temperature: KELVIN + stated("effective_temperature[C]"),
+        feed_pressures: None,
+    };
+    let rest = find_equilibrium(&mut film, &bearing, &request(), &conditions).unwrap();
+    assert_eq!(rest.outcome, Outcome::Converged);
+    film.account_heat(1.0);
+    let supply = [KELVIN + 58.0];
+    let surroundings = Surroundings {
+        volumetric_heat: 1.8e6,
+        supply: &supply,
+        ambient: supply[0],
+        carry_over: 1.0,
+        wall: (0.0, supply[0]),
+    };
+    let warmed = film.warm(&surroundings, 1.0).unwrap();
+    let rise = warmed.outlet - supply[0];
+    let expected = stated("outlet_temperature[C]") - 58.0;
+    println!("rise at the sides {rise:.3} K, heat balance {expected:.3} K");
+    assert!((rise / expected - 1.0).abs() < 0.02, "{rise} {expected}");
 }

@@ -31,6 +31,8 @@ fn rough() -> Finish {
             factor: 1e-3,
             asperity_product: 0.05,
             modulus: 53.3e9,
+            summit_height: 0.0,
+            summit_roughness: None,
         }),
         boundary_friction: 0.08,
     })

@@ -39,6 +39,10 @@ const UNFINISHED: &str = "combined-unfinished";
 /// Nodes along each axis to begin with: nine are the fewest of which every second one may be left out;
 /// along the eccentricity the derivatives ask for more than the force.
 const FIRST: [usize; 3] = [9, 25, 17];
+/// Fewest nodes along the direction of tables that err by [`DERIVATIVES_FROM`] or less: with 33 of them the
+/// derivatives of `gumbel` films were off by 1.3 % at one state of a hundred.
+const DIRECTIONS: usize = 65;
+const DERIVATIVES_FROM: f64 = 1e-3;
 /// Most nodes of a table.
 const MOST_NODES: usize = 1 << 20;
 /// Films that are solved at least every so often are kept.
@@ -137,6 +141,9 @@ impl Build {
         let mut counts = FIRST;
         if narrow == wide {
             counts[0] = 1;
+        }
+        if recipe.target <= DERIVATIVES_FROM {
+            counts[2] = DIRECTIONS;
         }
         Ok(Self {
             recipe: *recipe,

@@ -90,10 +90,12 @@ impl Recipe {
         Ok(())
     }
 
-    /// Error up to which films are solved: a tenth of the target.
+    /// Error up to which films are solved: a tenth of the target, and not more than the derivatives between
+    /// the nodes bear.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
-        0.1 * self.target
+        const COARSEST: f64 = 2e-5;
+        (0.1 * self.target).min(COARSEST)
     }
 
     /// Name of the closure in files and study files.

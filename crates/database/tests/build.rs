@@ -84,7 +84,7 @@ fn an_interrupted_table_goes_on_to_the_same_one_on_any_number_of_threads() {
 #[test]
 fn fresh_states_stay_within_the_stated_error() {
     let more = std::env::var("SOMMERFELD_FRESH_STATES").ok();
-    let samples = more.as_ref().map_or(200, |count| count.parse().unwrap());
+    let samples = more.as_ref().map_or(300, |count| count.parse().unwrap());
     let targets: &[f64] = if more.is_some() {
         &[1e-3, 1e-4]
     } else {

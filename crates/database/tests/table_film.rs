@@ -117,9 +117,9 @@ fn the_film_is_smooth_through_the_centre() {
         [-1.0, -0.1],
     ] {
         let near = react(&mut film, &at(1e-5 * x, 1e-5 * y));
-        for row in 0..2 {
+        for (row, f) in f.iter().enumerate() {
             let rise = [0, 1].map(|column: usize| centre.tangent.by_position[row][column] * c);
-            let expected = f[row] + 1e-5 * (rise[0] * x + rise[1] * y);
+            let expected = f + 1e-5 * (rise[0] * x + rise[1] * y);
             assert!(
                 (near.reaction.film_force[row] - expected).abs() < 1e-7 * size,
                 "{x} {y}"

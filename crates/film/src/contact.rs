@@ -1,23 +1,25 @@
 //! What do asperities carry where the surfaces come close?
 //!
 //! ```text
-//! p_c   = (16 sqrt(2) pi/15) (n b s)^2 sqrt(s/b) E' F_5/2(h/s)        A_c/A = pi^2 (n b s)^2 F_2(h/s)
-//! 1/E'  = (1 - nu_J^2)/E_J + (1 - nu_S^2)/E_S
+//! p_c   = (16 sqrt(2) pi/15) (n b s)^2 sqrt(s/b) E' F_5/2(H)          A_c/A = pi^2 (n b s)^2 F_2(H)
+//! H     = (h - d)/s                      1/E' = (1 - nu_J^2)/E_J + (1 - nu_S^2)/E_S
 //! ```
-//! n asperity density of each surface, b their radius, s composite rms roughness, h nominal gap. Two
-//! paraboloids that meet off their summits touch as spheres of radius b/2 do (Hertz); the first
-//! formula is that force over all offsets and over Gaussian sums of heights.
+//! n asperity density of each surface, b their radius, s rms of both surfaces' summit heights about their
+//! means, h nominal gap, d how far the means of the summits stand above the mean planes. Two paraboloids
+//! that meet off their summits touch as spheres of radius b/2 do (Hertz); the first formula is that
+//! force over all offsets and over Gaussian sums of heights.
 //!
 //! Assumptions: elastic asperities of one radius, alike on both surfaces; those that touch do not
-//! feel each other, so that areas near 1 are beyond the theory; heights of summits spread as the
-//! surface does, about the same mean plane. The mean is over the nominal area, which h may overlap.
-//! Instead of the theory, pressure over gap may come from a table ([`ContactTable`]).
+//! feel each other, so that areas near 1 are beyond the theory. Unless said otherwise summits spread as
+//! the surface does, about its mean plane: d = 0, s the composite rms roughness. The mean is over the
+//! nominal area, which h may overlap. Instead of the theory, pressure over gap may come from a table
+//! ([`ContactTable`]).
 //!
 //! Reference: J. A. Greenwood, J. H. Tripp, Proc. Instn Mech. Engrs 185 (1970) 625.
 
 pub use crate::contact_table::ContactTable;
 use crate::height_integrals::{F_2, F_5_2};
-use crate::roughness::{FinishError, OfGap, positive, within};
+use crate::roughness::{FinishError, LARGEST_ROUGHNESS, OfGap, positive, within};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, SQRT_2};
 
@@ -43,6 +45,14 @@ pub struct GreenwoodTripp {
     pub asperity_product: f64,
     /// Composite modulus E', Pa.
     pub modulus: f64,
+    /// Mean height d of the summits above the mean planes of the surfaces, of both together, m; not
+    /// negative. About the sum of the rms roughnesses for measured surfaces.
+    #[serde(default)]
+    pub summit_height: f64,
+    /// rms s of the summit heights about their means, of both surfaces together, m; positive. `None`:
+    /// they spread as the surfaces do.
+    #[serde(default)]
+    pub summit_roughness: Option<f64>,
 }
 
 /// Asperities of one surface; those of the other are alike.
@@ -64,7 +74,8 @@ pub struct Solid {
 }
 
 impl GreenwoodTripp {
-    /// From what asperities and materials are: `sigma` is the composite rms roughness, m.
+    /// From what asperities and materials are: `sigma` is the composite rms roughness, m. Summits spread as
+    /// the surfaces do, about their mean planes.
     ///
     /// # Errors
     /// [`FinishError`] for a value that is not positive, or a Poisson ratio outside 0 to 0.5.
@@ -83,16 +94,26 @@ impl GreenwoodTripp {
             factor: 16.0 * SQRT_2 * PI / 15.0 * product * product * slender,
             asperity_product: product,
             modulus: composite_modulus(journal, shell)?,
+            summit_height: 0.0,
+            summit_roughness: None,
         })
     }
 
-    fn pressure(&self, gap: f64, sigma: f64) -> OfGap {
-        scaled(self.factor * self.modulus, F_5_2.at(gap / sigma), sigma)
+    /// Distance of the means of the summits over the rms of their heights, and that rms, m.
+    fn between_summits(&self, gap: f64, roughness: f64) -> (f64, f64) {
+        let sigma = self.summit_roughness.unwrap_or(roughness);
+        ((gap - self.summit_height) / sigma, sigma)
     }
 
-    fn area_share(&self, gap: f64, sigma: f64) -> OfGap {
+    fn pressure(&self, gap: f64, roughness: f64) -> OfGap {
+        let (distance, sigma) = self.between_summits(gap, roughness);
+        scaled(self.factor * self.modulus, F_5_2.at(distance), sigma)
+    }
+
+    fn area_share(&self, gap: f64, roughness: f64) -> OfGap {
         let unit = (PI * self.asperity_product).powi(2);
-        let share = scaled(unit, F_2.at(gap / sigma), sigma);
+        let (distance, sigma) = self.between_summits(gap, roughness);
+        let share = scaled(unit, F_2.at(distance), sigma);
         if share.value > 1.0 {
             return OfGap {
                 value: 1.0,
@@ -126,7 +147,8 @@ fn scaled(unit: f64, (value, by_h): (f64, f64), sigma: f64) -> OfGap {
 
 impl ContactLaw {
     /// Contact pressure (Pa, mean over the nominal area) at a nominal gap (m, either sign) of surfaces
-    /// with the composite rms roughness `sigma` (m, positive; a table does not use it).
+    /// with the composite rms roughness `sigma` (m, positive; a table and summits with a roughness of
+    /// their own do not use it).
     /// C1, zero far away, never rising with the gap.
     #[must_use]
     pub fn pressure(&self, gap: f64, sigma: f64) -> OfGap {
@@ -157,14 +179,22 @@ impl ContactLaw {
     /// Refuses parameters that are none. A table was checked when it was made.
     ///
     /// # Errors
-    /// [`FinishError::NotPositive`].
+    /// [`FinishError::NotPositive`]; [`FinishError::OutOfRange`] for a summit height below zero or either
+    /// length above [`LARGEST_ROUGHNESS`].
     pub fn check(&self) -> Result<(), FinishError> {
         let Self::GreenwoodTripp(law) = self else {
             return Ok(());
         };
         positive("contact.factor", law.factor)?;
         positive("contact.asperity_product", law.asperity_product)?;
-        positive("contact.modulus", law.modulus)
+        positive("contact.modulus", law.modulus)?;
+        let largest = LARGEST_ROUGHNESS;
+        within("contact.summit_height", law.summit_height, 0.0, largest)?;
+        let Some(sigma) = law.summit_roughness else {
+            return Ok(());
+        };
+        positive("contact.summit_roughness", sigma)?;
+        within("contact.summit_roughness", sigma, 0.0, largest)
     }
 }
 
@@ -306,5 +336,66 @@ mod tests {
         let error = GreenwoodTripp::from_asperities(flat, SIGMA, STEEL, STEEL).unwrap_err();
         assert!(error.to_string().starts_with("asperity_radius"));
         assert_eq!(ContactLaw::GreenwoodTripp(law()).check(), Ok(()));
+        let refused = |change: &dyn Fn(&mut GreenwoodTripp)| {
+            let mut law = law();
+            change(&mut law);
+            ContactLaw::GreenwoodTripp(law)
+                .check()
+                .unwrap_err()
+                .to_string()
+        };
+        for height in [-1e-9, 2e-4, f64::NAN] {
+            let error = refused(&|law| law.summit_height = height);
+            assert!(error.starts_with("contact.summit_height is"), "{error}");
+        }
+        for roughness in [0.0, -1e-7, 2e-4, f64::NAN] {
+            let error = refused(&|law| law.summit_roughness = Some(roughness));
+            assert!(error.starts_with("contact.summit_roughness"), "{error}");
+        }
+    }
+
+    /// Summits d above the mean planes touch as those in the mean planes do with d less between them; d of
+    /// zero is no other law, to the last bit.
+    #[test]
+    fn summits_above_the_mean_planes_touch_from_further_away() {
+        let law = law();
+        let with = |summit_height, summit_roughness| {
+            ContactLaw::GreenwoodTripp(GreenwoodTripp {
+                summit_height,
+                summit_roughness,
+                ..law
+            })
+        };
+        let in_the_planes = ContactLaw::GreenwoodTripp(law);
+        let height = 0.6e-6;
+        let finer = 0.7 * SIGMA;
+        for i in -80..120 {
+            let gap = 0.05 * f64::from(i) * SIGMA;
+            let own = in_the_planes.pressure(gap, SIGMA);
+            assert_eq!(with(0.0, None).pressure(gap, SIGMA), own);
+            assert_eq!(with(0.0, Some(SIGMA)).pressure(gap, finer), own);
+            assert_eq!(
+                with(height, None).pressure(gap, SIGMA),
+                in_the_planes.pressure(gap - height, SIGMA)
+            );
+            assert_eq!(
+                with(height, Some(finer)).pressure(gap, SIGMA),
+                in_the_planes.pressure(gap - height, finer)
+            );
+            assert_eq!(
+                with(height, Some(finer)).area_share(gap, SIGMA),
+                in_the_planes.area_share(gap - height, finer)
+            );
+        }
+        let high = with(height, Some(finer));
+        let delta = 1e-3 * finer;
+        for gap in [-0.3e-6, 0.2e-6, 0.7e-6, 1.5e-6] {
+            let at = |d: f64| high.pressure(gap + d, SIGMA).value;
+            let difference = (8.0 * (at(delta) - at(-delta))
+                - (at(2.0 * delta) - at(-2.0 * delta)))
+                / (12.0 * delta);
+            let slope = high.pressure(gap, SIGMA).by_gap;
+            assert!((slope / difference - 1.0).abs() < 1e-7, "{gap}");
+        }
     }
 }

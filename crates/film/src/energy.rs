@@ -15,6 +15,8 @@
 //! supply's temperature, so that a feed that takes more than it gives has been given the rest before; what it
 //! loses leaves at that of its cell.
 //! Where nothing flows in, a cell has the temperature of the supply.
+//! Film and temperatures are found in turn. Heat that was made at one temperature may be foreseen at the one
+//! it leads to ([`Foresight`]): a warmer oil makes less, and a round that knows it does not overshoot.
 //! Reference: W. F. Cope, Proc. R. Soc. A 197 (1949) 201 (energy equation of the film).
 
 use crate::grid::Grid;
@@ -25,7 +27,7 @@ use serde::{Deserialize, Serialize};
 const NOTHING: f64 = 1e-10;
 
 /// What flows and what heats, averaged over the time that was accounted for.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct HeatAccount {
     periodic: bool,
     n_axial: usize,
@@ -45,6 +47,8 @@ pub struct HeatAccount {
     taken: Vec<Vec<f64>>,
     /// The feed that a cell belonged to last.
     home: Vec<Option<usize>>,
+    /// Room for the factors of the equations.
+    factor: Option<RingFactor>,
 }
 
 /// One instant of a film for [`HeatAccount::add`]; SI.
@@ -75,6 +79,15 @@ pub struct Surroundings<'a> {
     pub carry_over: f64,
     /// Heat that the walls take, W/(m2 K), and their temperature, K; 0 for adiabatic walls.
     pub wall: (f64, f64),
+}
+
+/// How the heat of the account changes where its film gets another temperature.
+#[derive(Debug, Clone, Copy)]
+pub struct Foresight<'a> {
+    /// Temperatures at which the heat was made, per cell, K.
+    pub made_at: &'a [f64],
+    /// Share by which the heat of a cell falls with its temperature, 1/K; not negative.
+    pub fall: &'a [f64],
 }
 
 /// The temperatures of a film.
@@ -146,6 +159,7 @@ impl HeatAccount {
             given: vec![vec![0.0; n * m]; feeds],
             taken: vec![vec![0.0; n * m]; feeds],
             home: vec![None; n * m],
+            factor: None,
         }
     }
 
@@ -240,10 +254,14 @@ impl HeatAccount {
         }
     }
 
-    /// The temperatures that the account leads to; `None` where nothing was accounted for, or where heat
-    /// is made in oil that nothing replaces.
+    /// The temperatures that the account leads to, with its heat as it was made or as foreseen; `None` where
+    /// nothing was accounted for, or where heat is made in oil that nothing replaces.
     #[must_use]
-    pub fn temperature(&self, surroundings: &Surroundings<'_>) -> Option<FilmTemperature> {
+    pub fn temperature(
+        &mut self,
+        surroundings: &Surroundings<'_>,
+        foresight: Option<&Foresight<'_>>,
+    ) -> Option<FilmTemperature> {
         if self.duration <= 0.0 {
             return None;
         }
@@ -252,14 +270,20 @@ impl HeatAccount {
             .first()
             .copied()
             .unwrap_or(surroundings.ambient);
-        let system = System::of(self, surroundings, reference);
-        let mut factor = RingFactor::new(&system.matrix);
+        let mut system = System::of(self, surroundings, reference);
+        if let Some(foresight) = foresight {
+            system.foresee(self, foresight, surroundings.volumetric_heat, reference);
+        }
+        let kept = self.factor.take();
+        let mut factor = kept.unwrap_or_else(|| RingFactor::new(&system.matrix));
         if !factor.factor(&system.matrix) {
             return None;
         }
         let mut cells = system.rhs.clone();
         factor.solve(&mut cells);
-        let feeds = self.mixed(&mut factor, &mut cells, &system, surroundings, reference)?;
+        let feeds = self.mixed(&mut factor, &mut cells, &system, surroundings, reference);
+        self.factor = Some(factor);
+        let feeds = feeds?;
         for (k, cell) in cells.iter_mut().enumerate() {
             if let (true, Some(feed)) = (system.stands_still[k], self.home[k]) {
                 *cell = feeds[feed];
@@ -382,8 +406,10 @@ impl HeatAccount {
     ) -> EnergyBalance {
         let unit = surroundings.volumetric_heat / self.duration;
         let bath = surroundings.ambient - reference;
+        let spared = system.spared.iter().zip(cells);
+        let spared: f64 = spared.map(|([volume, rise], t)| volume * (t - rise)).sum();
         let mut balance = EnergyBalance {
-            generated: total(&self.heat) / self.duration,
+            generated: (total(&self.heat) - surroundings.volumetric_heat * spared) / self.duration,
             ..EnergyBalance::default()
         };
         self.at_ends(|cell, out, entered| {
@@ -424,6 +450,9 @@ struct System {
     stands_still: Vec<bool>,
     /// Oil that the closure makes in all cells, m3; round-off where it conserves mass.
     made: f64,
+    /// Per cell, if foreseen: heat that each K more spares over the oil's heat capacity, m3, and the rise (K)
+    /// from which it is counted.
+    spared: Vec<[f64; 2]>,
 }
 
 impl System {
@@ -437,6 +466,7 @@ impl System {
             outflow: vec![0.0; n * m],
             stands_still: vec![false; n * m],
             made: 0.0,
+            spared: Vec::new(),
         };
         system.add_around(account, n, m);
         system.add_axial(account, surroundings.ambient - reference, n, m);
@@ -463,6 +493,27 @@ impl System {
             }
         }
         system
+    }
+
+    /// Heat falls with the temperature that it leads to.
+    fn foresee(
+        &mut self,
+        account: &HeatAccount,
+        foresight: &Foresight<'_>,
+        volumetric_heat: f64,
+        reference: f64,
+    ) {
+        for (k, heat) in account.heat.iter().enumerate() {
+            let volume = if self.stands_still[k] {
+                0.0
+            } else {
+                (heat * foresight.fall[k]).max(0.0) / volumetric_heat
+            };
+            let rise = foresight.made_at[k] - reference;
+            self.matrix.centre[k] += volume;
+            self.rhs[k] += volume * rise;
+            self.spared.push([volume, rise]);
+        }
     }
 
     /// A cell that nothing flows into: no heat is carried, it keeps the temperature of the supply.
@@ -543,175 +594,4 @@ fn total(values: &[f64]) -> f64 {
 
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
-mod tests {
-    use super::*;
-
-    const OIL: f64 = 1.8e6;
-
-    fn uniform(n: usize, m: usize) -> Grid {
-        let faces = |count: usize, length: f64| {
-            (0..=count)
-                .map(|i| length * i as f64 / count as f64)
-                .collect()
-        };
-        Grid::from_faces(faces(n, 1.0), faces(m, 0.3))
-    }
-
-    fn surroundings(supply: &[f64]) -> Surroundings<'_> {
-        Surroundings {
-            volumetric_heat: OIL,
-            supply,
-            ambient: 300.0,
-            carry_over: 1.0,
-            wall: (0.0, 300.0),
-        }
-    }
-
-    /// A flow that enters on the line before the first cell and leaves at both ends of the last station.
-    fn channel(n: usize, m: usize, flow: f64) -> (Vec<f64>, Vec<f64>) {
-        let mut around = vec![flow / m as f64; (n + 1) * m];
-        let mut axial = vec![0.0; n * (m + 1)];
-        around[n * m..].fill(0.0);
-        for j in 0..=m {
-            axial[(n - 1) * (m + 1) + j] = flow * (j as f64 / m as f64 - 0.5);
-        }
-        (around, axial)
-    }
-
-    #[test]
-    fn an_adiabatic_channel_warms_in_proportion() {
-        let (n, m) = (12, 2);
-        let grid = uniform(n, m);
-        let mut account = HeatAccount::new(&grid, 0.05, false, 1);
-        let (around, axial) = channel(n, m, 2e-5);
-        let instant = HeatInstant {
-            around: &around,
-            axial: &axial,
-            heat: &vec![2.0; n * m],
-            fed_by: &vec![None; n * m],
-        };
-        account.add(&instant, 0.25);
-        let found = account.temperature(&surroundings(&[330.0])).unwrap();
-        let rise = 2.0 / (OIL * 1e-5);
-        for (k, temperature) in found.cells.iter().enumerate() {
-            let exact = 330.0 + rise * ((k / m) as f64 + 1.0);
-            assert!(
-                (temperature - exact).abs() < 1e-9,
-                "{k} {temperature} {exact}"
-            );
-        }
-        assert!(
-            found.balance.relative_error() < 1e-12,
-            "{:?}",
-            found.balance
-        );
-    }
-
-    /// An axial groove that gives half of what leaves it and takes the rest from the film before it: its
-    /// temperature is the mean of supply and film.
-    #[test]
-    fn a_groove_mixes_supply_and_film() {
-        let (n, m) = (20, 2);
-        let grid = uniform(n, m);
-        let mut account = HeatAccount::new(&grid, 0.05, true, 1);
-        let mut fed_by = vec![None; n * m];
-        fed_by[..2 * m].fill(Some(0));
-        let mut around = vec![0.0; (n + 1) * m];
-        let mut axial = vec![0.0; n * (m + 1)];
-        // Half of the flow leaves at the ends on the way.
-        let mut flow = 2e-5;
-        for i in 2..=n {
-            around[i * m..(i + 1) * m].fill(flow);
-            if i < n {
-                let side = 1e-5 / (n - 2) as f64;
-                axial[i * (m + 1)] = -side;
-                axial[i * (m + 1) + m] = side;
-                flow -= side;
-            }
-        }
-        around.copy_within(n * m.., 0);
-        let heat = vec![1.5; n * m];
-        let instant = HeatInstant {
-            around: &around,
-            axial: &axial,
-            heat: &heat,
-            fed_by: &fed_by,
-        };
-        account.add(&instant, 1.0);
-        let found = account.temperature(&surroundings(&[350.0])).unwrap();
-        let last = found.cells[(n - 1) * m];
-        assert!((found.feeds[0] - 0.5 * (350.0 + last)).abs() < 1e-9);
-        assert!((found.cells[0] - found.feeds[0]).abs() < 1e-9);
-        assert!(
-            found.balance.relative_error() < 1e-12,
-            "{:?}",
-            found.balance
-        );
-        // Heat in the cells of the groove is not the film's.
-        let made = 1.5 * ((n - 2) * m) as f64;
-        assert!(
-            (found.balance.carried_out / made - 1.0).abs() < 1e-9,
-            "{:?}",
-            found.balance
-        );
-        assert!((found.outlet - 350.0 - made / (OIL * 2e-5)).abs() < 1e-9);
-    }
-
-    /// Walls draw the temperature to theirs with exp(-x k b/(rho c q)); upwind cells are of first order.
-    #[test]
-    fn walls_draw_heat_exponentially() {
-        let error = |n: usize| {
-            let grid = uniform(n, 1);
-            let mut account = HeatAccount::new(&grid, 0.1, false, 1);
-            let (flow_around, axial) = channel(n, 1, 1e-6);
-            let instant = HeatInstant {
-                around: &flow_around,
-                axial: &axial,
-                heat: &vec![0.0; n],
-                fed_by: &vec![None; n],
-            };
-            account.add(&instant, 1.0);
-            let mut around = surroundings(&[400.0]);
-            around.wall = (2000.0, 320.0);
-            let found = account.temperature(&around).unwrap();
-            // 1 x 0.3 over a radius of 0.1 m.
-            let exponent = 2000.0 * 0.3 * 0.01 / (OIL * 1e-6);
-            let exact = (-exponent).exp();
-            assert!(found.balance.relative_error() < 1e-12);
-            (found.cells[n - 1] - 320.0) / (found.feeds[0] - 320.0) - exact
-        };
-        let (coarse, fine) = (error(40), error(80));
-        assert!((coarse / fine - 2.0).abs() < 0.1, "{coarse} {fine}");
-    }
-
-    /// Walls beside a groove take heat from the film alone, and the balance of all cells closes.
-    #[test]
-    fn walls_beside_a_groove_are_in_the_balance() {
-        let (n, m) = (20, 2);
-        let grid = uniform(n, m);
-        let mut account = HeatAccount::new(&grid, 0.05, true, 1);
-        let mut fed_by = vec![None; n * m];
-        fed_by[..2 * m].fill(Some(0));
-        let mut around = vec![2e-5; (n + 1) * m];
-        around[m..2 * m].fill(0.0);
-        let instant = HeatInstant {
-            around: &around,
-            axial: &vec![0.0; n * (m + 1)],
-            heat: &vec![1.5; n * m],
-            fed_by: &fed_by,
-        };
-        account.add(&instant, 1.0);
-        let mut walls = surroundings(&[350.0]);
-        walls.wall = (20_000.0, 355.0);
-        let found = account.temperature(&walls).unwrap();
-        assert!(found.balance.conducted.abs() > 1.0);
-        let error = found.balance.relative_error();
-        assert!(error < 1e-12, "{error:e} {:?}", found.balance);
-    }
-
-    #[test]
-    fn nothing_accounted_for_has_no_temperature() {
-        let account = HeatAccount::new(&uniform(4, 2), 0.05, true, 0);
-        assert!(account.temperature(&surroundings(&[])).is_none());
-    }
-}
+mod tests;

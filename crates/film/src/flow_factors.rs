@@ -29,6 +29,7 @@ use std::ops::RangeInclusive;
 
 mod fits;
 mod sliding;
+pub(crate) mod table;
 
 use fits::{ROWS, Reading};
 
@@ -151,6 +152,28 @@ impl FlowFactors {
     #[must_use]
     pub fn shear_by_pressure(&self, gap: f64) -> OfGap {
         self.blend(&self.around, gap, fits::shear_by_pressure)
+    }
+
+    /// The laws of a face around over H: `phi_x H^3`, phi_s and phi_fp with their derivatives by H.
+    pub(crate) fn at_face(&self, h: f64) -> [(f64, f64); 3] {
+        [
+            weighted(&self.around, h, fits::conductance),
+            weighted(&self.difference, h, fits::shear_flow),
+            weighted(&self.around, h, fits::shear_by_pressure),
+        ]
+    }
+
+    /// The same of a face along the axis: `phi_z H^3`.
+    pub(crate) fn at_end(&self, h: f64) -> [(f64, f64); 1] {
+        [weighted(&self.along, h, fits::conductance)]
+    }
+
+    /// The same of a cell: `phi_f/H` and phi_fs.
+    pub(crate) fn at_cell(&self, h: f64) -> [(f64, f64); 2] {
+        [
+            sliding::phi_f_over_h(h),
+            weighted(&self.difference, h, fits::shear_difference),
+        ]
     }
 
     fn conductance(&self, weights: &Weights, gap: f64) -> OfGap {

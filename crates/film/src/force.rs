@@ -80,12 +80,23 @@ pub trait FilmForce {
     /// without a field of temperature.
     fn account_heat(&mut self, _duration: f64) {}
 
-    /// Moves the temperatures of the film by a share (0 to 1) towards those that the account of its heat
-    /// leads to, and begins a new account. `None` for models without a field of temperature, and where
-    /// heat has no way out.
-    fn warm(&mut self, _surroundings: &Surroundings<'_>, _share: f64) -> Option<Warmed> {
+    /// The temperatures that the account of the film's heat leads to, with the heat as it was made or, if
+    /// `foresees`, as it will be there; both agree where the film has these temperatures. `None` for models
+    /// without a field of temperature, and where heat has no way out.
+    fn led_to(&mut self, _surroundings: &Surroundings<'_>, _foresees: bool) -> Option<Warming> {
         None
     }
+
+    /// Gives the film temperatures (K) for each of the cells of [`Warming`], and begins a new account.
+    fn warm(&mut self, _cells: &[f64]) {}
+
+    /// The same film on a coarser grid, for callers that bring it to rest first; `None` for films without.
+    fn coarser(&mut self) -> Option<&mut dyn FilmForce> {
+        None
+    }
+
+    /// Begins with what the coarser film found: its cavitated set and temperatures.
+    fn take_over(&mut self) {}
 
     /// The last implicit step becomes history: the next one starts from its film content.
     fn accept_step(&mut self) {}
@@ -128,7 +139,18 @@ fn settled<F: FilmForce + ?Sized>(
     Ok((seen, updates))
 }
 
-/// What [`FilmForce::warm`] did.
+/// What the account of a film's heat leads to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Warming {
+    /// Temperatures of the cells, K: those at which the heat was made.
+    pub from: Vec<f64>,
+    /// Temperatures that it leads to, K.
+    pub led_to: Vec<f64>,
+    /// What there is to say of them.
+    pub warmed: Warmed,
+}
+
+/// The temperatures of a film, in short.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Warmed {
     /// Largest difference of a cell to what the account leads to, K.

@@ -23,6 +23,8 @@ pub struct Gap {
     pub around_cubed: Vec<f64>,
     /// H at faces along the axis, `(i, j)` at `i * (n_axial + 1) + j`.
     pub axial: Vec<f64>,
+    /// H^3 that conducts at the same faces, where it is not that of H: else empty.
+    pub axial_cubed: Vec<f64>,
     /// Mean H over each cell.
     pub mean: Vec<f64>,
     /// Mean rate dH/dt over each cell, 1/s.
@@ -78,6 +80,7 @@ impl Gap {
             around_transport: vec![0.0; (n + 1) * m],
             around_cubed: vec![0.0; (n + 1) * m],
             axial: vec![0.0; n * (m + 1)],
+            axial_cubed: Vec::new(),
             mean: vec![0.0; n * m],
             rate: vec![0.0; n * m],
             steps: Vec::new(),

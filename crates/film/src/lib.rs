@@ -61,7 +61,7 @@ pub use finish::{Finish, RoughFinish};
 pub use flow_factors::FlowFactors;
 pub use force::{
     Capabilities, Conditions, Extreme, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory,
-    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent, Warmed,
+    FilmSummary, Linearised, Outcome, Reaction, Step, Tangent, Warmed, Warming,
 };
 pub use grid::Grid;
 pub use journal_state::JournalState;

@@ -14,6 +14,7 @@
 //! 10.1115/1.3453329.
 
 use crate::flow_factors::FlowFactors;
+use crate::flow_factors::table::LawTable;
 use crate::gap::Gap;
 use crate::grid::Grid;
 use crate::reynolds::Operator;
@@ -22,7 +23,7 @@ use sommerfeld_oil::Lubricant;
 /// Nominal gap, and the slopes of what it lets through.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Passage {
-    factors: Option<FlowFactors>,
+    rough: Option<RoughLaws>,
     thins: bool,
     /// Nominal H at faces around, and mean over cells.
     pub height_around: Vec<f64>,
@@ -48,6 +49,28 @@ pub struct Passage {
     pub viscosity: Vec<f64>,
     /// Fluidity at low shear over that at the film's temperature, per cell; 1 without a field.
     fluidity: Vec<f64>,
+}
+
+/// Factors of rough surfaces, tabulated.
+#[derive(Debug, Clone, PartialEq)]
+struct RoughLaws {
+    factors: FlowFactors,
+    around: LawTable<3>,
+    along: LawTable<1>,
+    cell: LawTable<2>,
+}
+
+impl RoughLaws {
+    fn new(factors: FlowFactors) -> Self {
+        // The mean of gap over local gap bends where the deepest heights begin to touch.
+        const DEEPEST_HEIGHT: f64 = 3.0;
+        Self {
+            factors,
+            around: LawTable::new(f64::INFINITY),
+            along: LawTable::new(f64::INFINITY),
+            cell: LawTable::new(DEEPEST_HEIGHT),
+        }
+    }
 }
 
 /// What surrounds the gap at an instant.
@@ -83,7 +106,7 @@ impl Passage {
         let around = vec![0.0; (n + 1) * m];
         let cells = vec![0.0; n * m];
         Some(Self {
-            factors,
+            rough: factors.map(RoughLaws::new),
             thins,
             height_around: around.clone(),
             height: cells.clone(),
@@ -111,7 +134,7 @@ impl Passage {
 
     /// Completes an operator made from the narrowed gap: flow by sliding.
     pub(crate) fn amend(&self, operator: &mut Operator, grid: &Grid) {
-        if self.factors.is_some() {
+        if self.rough.is_some() {
             let m = grid.n_axial();
             for (face, transport) in operator.transport.iter_mut().enumerate() {
                 *transport += self.drag[face] * grid.axial_widths[face % m];
@@ -139,12 +162,13 @@ impl Passage {
         let reference = state.oil.viscosity(state.temperature, 0.0).value;
         for k in 0..self.height.len() {
             let nominal = self.height[k];
-            let gap_m = nominal * state.clearance;
-            let (mean, slopes, shearing) = match &self.factors {
-                Some(factors) => {
-                    let mean = factors.mean_gap(gap_m);
-                    let stress = factors.shear_over_gap(gap_m).value * state.clearance;
-                    let difference = factors.shear_difference(gap_m).value / nominal;
+            let (mean, slopes, shearing) = match &mut self.rough {
+                Some(RoughLaws { factors, cell, .. }) => {
+                    let per_sigma = state.clearance / factors.sigma();
+                    let mean = factors.mean_gap(nominal * state.clearance);
+                    let [(stress, _), (difference, _)] =
+                        cell.at(nominal * per_sigma, |h| factors.at_cell(h));
+                    let difference = difference / nominal;
                     // Where the surfaces overlap the factor is zero faster than the gap.
                     let difference = if difference.is_finite() {
                         difference
@@ -153,7 +177,11 @@ impl Passage {
                     };
                     let curvature = mean.contact_factor_by_gap * state.clearance;
                     let slopes = [mean.contact_factor, curvature];
-                    (mean.value / state.clearance, slopes, [stress, difference])
+                    (
+                        mean.value / state.clearance,
+                        slopes,
+                        [stress * per_sigma, difference],
+                    )
                 }
                 None => (nominal, [1.0, 0.0], [1.0 / nominal, 0.0]),
             };
@@ -198,19 +226,23 @@ impl Passage {
             let mut carried_slope = carrying * gap.around_transport[face];
             self.pressing[face] = 1.0;
             let mut drag_slope = 0.0;
-            if let Some(factors) = &self.factors {
-                let gap_m = nominal * c;
-                let conductance = factors.conductance_around(gap_m);
-                let mean = factors.mean_gap(gap_m);
-                let drag = factors.shear_flow(gap_m);
-                let half = 0.5 * state.sliding * factors.sigma() / c;
-                gap.around_cubed[face] = conductance.value / c.powi(3);
-                conducting = conductance.by_gap * c / conductance.value;
+            if let Some(RoughLaws {
+                factors, around, ..
+            }) = &mut self.rough
+            {
+                let over = factors.sigma() / c;
+                let per_sigma = c / factors.sigma();
+                let [conductance, drag, pressing] =
+                    around.at(nominal * per_sigma, |h| factors.at_face(h));
+                let mean = factors.mean_gap(nominal * c);
+                let half = 0.5 * state.sliding * over;
+                gap.around_cubed[face] = over * over * over * conductance.0;
+                conducting = conductance.1 / conductance.0 * per_sigma;
                 gap.around_transport[face] = mean.value / c;
                 carried_slope = mean.contact_factor;
-                self.drag[face] = half * drag.value;
-                drag_slope = half * drag.by_gap * c;
-                self.pressing[face] = factors.shear_by_pressure(gap_m).value;
+                self.drag[face] = half * drag.0;
+                drag_slope = half * drag.1 * per_sigma;
+                self.pressing[face] = pressing.0;
             }
             let around = [(i + n - 1) % n * m + j, i % n * m + j];
             let (fluidity, temperature) = self.warm_fluidity(state, around.map(Some));
@@ -226,29 +258,32 @@ impl Passage {
         }
     }
 
-    /// Leaves in the gap the smooth height that conducts as much.
+    /// Leaves in the gap what conducts.
     fn fill_axial(&mut self, gap: &mut Gap, state: &PassageState<'_>) {
         let (n, m) = (state.grid.n_around(), state.grid.n_axial());
         let c = state.clearance;
+        gap.axial_cubed.resize(n * (m + 1), 0.0);
         for face in 0..n * (m + 1) {
             let (i, j) = (face / (m + 1), face % (m + 1));
             let nominal = gap.axial[face];
-            let (cubed, mut slope, mean, mean_slope) = match &self.factors {
-                Some(factors) => {
-                    let conductance = factors.conductance_along(nominal * c);
+            let (cubed, mut slope, mean, mean_slope) = match &mut self.rough {
+                Some(RoughLaws { factors, along, .. }) => {
+                    let over = factors.sigma() / c;
+                    let per_sigma = c / factors.sigma();
+                    let [conductance] = along.at(nominal * per_sigma, |h| factors.at_end(h));
                     let mean = factors.mean_gap(nominal * c);
-                    let slope = conductance.by_gap * c / conductance.value;
-                    let cubed = conductance.value / c.powi(3);
+                    let slope = conductance.1 / conductance.0 * per_sigma;
+                    let cubed = over * over * over * conductance.0;
                     (cubed, slope, mean.value / c, mean.contact_factor)
                 }
-                None => (nominal.powi(3), 3.0 / nominal, nominal, 1.0),
+                None => (nominal * nominal * nominal, 3.0 / nominal, nominal, 1.0),
             };
             let cells = [(j > 0).then(|| i * m + j - 1), (j < m).then_some(i * m + j)];
             let (fluidity, temperature) = self.warm_fluidity(state, cells);
             let (thinned, by_height) = self.thinned(state, mean, temperature);
             slope -= by_height * mean_slope;
             self.axial_slopes[face] = slope;
-            gap.axial[face] = (cubed * fluidity / thinned).cbrt();
+            gap.axial_cubed[face] = cubed * fluidity / thinned;
         }
     }
 }

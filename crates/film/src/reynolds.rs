@@ -149,9 +149,20 @@ impl Operator {
             let width = grid.around_widths[i];
             let faces = i * (m + 1)..(i + 1) * (m + 1);
             let conductance = &mut self.conductance_axial[faces.clone()];
-            let shares = gap.axial[faces].iter().zip(&self.per_axial_distance);
-            for (conductance, (height, per_distance)) in conductance.iter_mut().zip(shares) {
-                *conductance = height * height * height * width * per_distance;
+            let distances = &self.per_axial_distance;
+            if let Some(cubed) = gap.axial_cubed.get(faces.clone()) {
+                for (conductance, (cubed, per_distance)) in
+                    conductance.iter_mut().zip(cubed.iter().zip(distances))
+                {
+                    *conductance = cubed * width * per_distance;
+                }
+            } else {
+                for (conductance, (height, per_distance)) in conductance
+                    .iter_mut()
+                    .zip(gap.axial[faces].iter().zip(distances))
+                {
+                    *conductance = height * height * height * width * per_distance;
+                }
             }
             if closed {
                 conductance[0] = 0.0;

@@ -160,11 +160,21 @@ pub struct MeanGap {
     pub contact_factor_by_gap: f64,
 }
 
+/// From this gap over the roughness on, what touches is below round-off: F_1(9) = 1e-20.
+const NOTHING_TOUCHES: f64 = 9.0;
+
 /// Mean gap of surfaces with the composite rms roughness `sigma` (m, positive) at a nominal gap
 /// `gap` (m, either sign).
 #[must_use]
 pub fn mean_gap(gap: f64, sigma: f64) -> MeanGap {
     let h = gap / sigma;
+    if h > NOTHING_TOUCHES {
+        return MeanGap {
+            value: gap,
+            contact_factor: 1.0,
+            contact_factor_by_gap: 0.0,
+        };
+    }
     let (overlap, by_h) = F_1.at(h.abs());
     // by symmetry F_1(-H) = H + F_1(H): no difference of large numbers on either side
     let (value, contact_factor) = if h >= 0.0 {

@@ -17,7 +17,7 @@ use crate::film_state::FilmState;
 use crate::finish::Finish;
 use crate::force::{
     Capabilities, Conditions, FeedFlow, FilmError, FilmField, FilmForce, FilmHistory, FilmSummary,
-    Linearised, Outcome, Step, Tangent, Warmed,
+    Linearised, Outcome, Step, Tangent, Warming,
 };
 use crate::frame::Frame;
 use crate::gap::AngleTables;
@@ -527,9 +527,15 @@ impl FilmForce for FilmSolver {
                 seen.outcome = Outcome::NotConverged;
                 break;
             }
-            // What the film left its feeds may have changed.
-            self.film
-                .place_feeds(&self.bearing, self.extent, conditions);
+            if self.film.expansion.displacement.is_empty() {
+                // What the film left its feeds may have changed.
+                self.film
+                    .place_feeds(&self.bearing, self.extent, conditions);
+            } else {
+                // A shell that gave way has another gap, about which the film is linearised.
+                let turned = self.frame.turn(state);
+                self.prepare(&self.frame.to_grid(state, turned), step, conditions);
+            }
             seen = self.update(state, step, Wanted::Reaction);
             updates += 1;
         }
@@ -565,8 +571,22 @@ impl FilmForce for FilmSolver {
         self.add_to_account(duration);
     }
 
-    fn warm(&mut self, surroundings: &Surroundings<'_>, share: f64) -> Option<Warmed> {
-        self.move_temperatures(surroundings, share)
+    fn led_to(&mut self, surroundings: &Surroundings<'_>, foresees: bool) -> Option<Warming> {
+        self.temperatures_led_to(surroundings, foresees)
+    }
+
+    fn warm(&mut self, cells: &[f64]) {
+        self.take_temperatures(cells);
+    }
+
+    fn coarser(&mut self) -> Option<&mut dyn FilmForce> {
+        let coarse = self.coarse.as_deref_mut()?;
+        Some(coarse)
+    }
+
+    fn take_over(&mut self) {
+        self.take_coarse_set();
+        self.take_coarse_temperatures();
     }
 
     fn accept_step(&mut self) {

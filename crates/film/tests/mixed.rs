@@ -38,6 +38,8 @@ fn rough(sigma: f64, contact: f64) -> Finish {
             factor: contact,
             asperity_product: 0.05,
             modulus: 53.3e9,
+            summit_height: 0.0,
+            summit_roughness: None,
         }),
         boundary_friction: 0.02,
     })
@@ -447,4 +449,40 @@ fn newton_terms_equal_differences() {
     };
     let (coarse, fine) = (error(1e-2), error(1e-3));
     assert!(fine < 0.011 * coarse, "{coarse:e} {fine:e}");
+}
+
+/// A film at one place follows a shell that gives way by Newton's steps: a handful of updates, also where it
+/// moves by as much as the gap, and the answer is that of the pressures it ends with.
+#[test]
+fn films_on_soft_shells_settle_in_a_few_updates() {
+    for cavitation in CLOSURES {
+        for (thickness, modulus) in [(2e-3, 70e9), (2e-3, 20e9), (10e-3, 70e9)] {
+            let soft = Bearing {
+                elasticity: Elasticity::Layer {
+                    thickness,
+                    modulus,
+                    poisson: 0.3,
+                },
+                ..bearing(cavitation)
+            };
+            let mut film = FilmSolver::new(&soft, &oil(), [64, 16]).unwrap();
+            for eps in [0.7, 0.8, 0.85] {
+                let still = JournalState {
+                    velocity: [0.0; 2],
+                    ..state(eps)
+                };
+                let (seen, updates) = film.look(&still, Step::Steady, &conditions()).unwrap();
+                assert_eq!(seen.outcome, Outcome::Converged, "{cavitation:?} {eps}");
+                assert!(
+                    updates <= 14,
+                    "{cavitation:?} {thickness} m {eps}: {updates}"
+                );
+                let again = film.linearise(&still, Step::Steady, &conditions()).unwrap();
+                let force = |f: [f64; 2]| f[0].hypot(f[1]);
+                let apart =
+                    force(again.reaction.film_force) / force(seen.reaction.film_force) - 1.0;
+                assert!(apart.abs() < 1e-8, "{cavitation:?} {eps}: {apart:e}");
+            }
+        }
+    }
 }

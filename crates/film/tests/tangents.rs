@@ -256,6 +256,8 @@ fn rough(contact: f64) -> Finish {
             factor: contact,
             asperity_product: 0.05,
             modulus: 53.3e9,
+            summit_height: 0.3e-6,
+            summit_roughness: Some(0.8e-6),
         }),
         boundary_friction: 0.05,
     })

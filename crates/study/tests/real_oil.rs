@@ -94,13 +94,37 @@ fn surfaces_and_layer_in_si() {
     near(rough.roughness.journal, 0.28e-6, 1e-12);
     near(rough.roughness.peklenik_shell, 4.0, 1e-12);
     assert!(
-        matches!(&rough.contact, ContactLaw::GreenwoodTripp(law) if (law.modulus / 53.3e9 - 1.0).abs() < 1e-12)
+        matches!(&rough.contact, ContactLaw::GreenwoodTripp(law) if (law.modulus / 53.3e9 - 1.0).abs() < 1e-12
+            && law.summit_height == 0.0 && law.summit_roughness.is_none())
     );
     assert!(matches!(bearing.elasticity, Elasticity::Layer { poisson, .. } if poisson == 0.33));
     let smooth = self::study("[oil]\nviscosity = \"8 mPa.s\"\n[bearing.surface]\n");
     let case = smooth.bearing_case().unwrap();
     assert_eq!(case.bearing.finish, Finish::Smooth);
     assert_eq!(case.heat, HeatPlan::Given);
+}
+
+/// Asperities touch from further away by as much as their summits stand above the mean planes.
+#[test]
+fn summits_above_the_mean_planes() {
+    let with = |more: &str| {
+        let study = study(&format!(
+            "[oil]\nviscosity = \"8 mPa.s\"\n[bearing.surface]\nroughness_journal = \"0.2 um\"\n\
+             roughness_shell = \"0.34 um\"\nboundary_friction = 0.02\n[bearing.surface.contact]\n\
+             law = \"greenwood-tripp\"\nfactor = 1e-3\nasperity_product = 0.05\nmodulus = \"53.3 GPa\"\n{more}"
+        ));
+        study.bearing_case().unwrap().bearing.finish.clone()
+    };
+    let planes = with("");
+    let high = with("summit_height = \"0.6 um\"\n");
+    let touch = |finish: &Finish, gap: f64| finish.contact_pressure(gap).value;
+    near(touch(&high, 0.9e-6) / touch(&planes, 0.3e-6), 1.0, 1e-9);
+    let Finish::Rough(rough) = with("summit_roughness = \"0.3087 um\"\n") else {
+        panic!()
+    };
+    assert!(
+        matches!(&rough.contact, ContactLaw::GreenwoodTripp(law) if law.summit_roughness.is_some_and(|s| (s / 0.3087e-6 - 1.0).abs() < 1e-12))
+    );
 }
 
 /// P = rho c Q (T_out - T_in) + k (T - T_s), T the mean of inlet and outlet, and the clearance is the

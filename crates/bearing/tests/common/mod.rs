@@ -107,10 +107,12 @@ pub fn greenwood_tripp(factor: f64) -> ContactLaw {
         factor,
         asperity_product: 0.05,
         modulus: 53.3e9,
+        summit_height: 0.0,
+        summit_roughness: None,
     })
 }
 
-/// Surfaces of that rig. The Peklenik number of its shell, 12, is beyond what the factors were fitted
+/// Surfaces of that rig, as rough as its summits. The Peklenik number of its shell, 12, is beyond what the factors were fitted
 /// to: 9 is the end.
 pub fn rig_finish(contact: ContactLaw) -> Finish {
     Finish::Rough(RoughFinish {

@@ -235,33 +235,40 @@ impl<const M: usize> Level<M> {
     fn fit_boundary(&mut self, angle: f64) {
         let n = self.ring.count();
         let mut right = self.sources(angle);
-        self.ring.beyond.fill([0.0; M]);
-        for k in 0..n {
-            for (inner, outer, face) in [
-                ((k + n - 1) % n, (k + 1) % n, k),
-                ((k + 1) % n, (k + n - 1) % n, (k + n - 1) % n),
-            ] {
-                for j in 0..M {
-                    let inside = |k: usize| self.ring.set[k] >> j & 1 == 1;
-                    if !inside(k) || inside(outer) || !inside(inner) {
-                        continue;
+        let mut beyond = vec![[0.0; M]; n];
+        for (k, (right, beyond)) in right.iter_mut().zip(&mut beyond).enumerate() {
+            let (before, after) = ((k + n - 1) % n, (k + 1) % n);
+            for (inner, outer, face) in [(before, after, k), (after, before, before)] {
+                for (j, (right, beyond)) in right.iter_mut().zip(beyond.iter_mut()).enumerate() {
+                    if let Some((slope, value)) = self.parabola([inner, k, outer], j) {
+                        let stiffness = self.ring.face(face, j);
+                        *beyond += stiffness * slope;
+                        *right += stiffness * value;
                     }
-                    let own = self.pressure[k][j].max(0.0).sqrt();
-                    let next = self.pressure[inner][j].max(0.0).sqrt();
-                    let root = 2.0 * own - next;
-                    if root >= 0.0 || next <= 0.0 {
-                        continue;
-                    }
-                    let slope = (-root / own.max(1e-3 * next)).min(STEEPEST);
-                    let stiffness = self.ring.face(face, j);
-                    self.ring.beyond[k][j] += stiffness * slope;
-                    right[k][j] += stiffness * (root * root + slope * own * own);
                 }
             }
         }
+        self.ring.beyond = beyond;
         self.ring.factorise();
         self.ring.solve(&mut right);
         self.pressure = right;
+    }
+
+    /// Where the film ends between the second and the third of three columns: minus the derivative of the
+    /// pressure beyond the boundary by that before it, and what it would be with that at zero.
+    fn parabola(&self, [inner, k, outer]: [usize; 3], j: usize) -> Option<(f64, f64)> {
+        let inside = |k: usize| self.ring.set[k] >> j & 1 == 1;
+        if !inside(k) || inside(outer) || !inside(inner) {
+            return None;
+        }
+        let root = |k: usize| self.pressure[k][j].max(0.0).sqrt();
+        let (own, next) = (root(k), root(inner));
+        let beyond = 2.0 * own - next;
+        if beyond >= 0.0 {
+            return None;
+        }
+        let slope = (-beyond / own.max(1e-3 * next)).min(STEEPEST);
+        Some((slope, beyond * beyond + slope * own * own))
     }
 
     /// Part of the length of column `k` that its node `j` stands for, where the pressure is cut at
@@ -376,14 +383,13 @@ impl<const M: usize> Level<M> {
             ..Answer::default()
         };
         let mut highest = 0;
-        for k in 0..n {
-            let own = &self.pressure[k];
+        for (k, (own, kept)) in self.pressure.iter().zip(kept).enumerate() {
             // (D/B)^2/24 times the integral of -H^3 dP/dZ at the end; `axial` holds the rest.
             let outflow = -ring.axial[k] * ring.end_slope(own) / 24.0;
             out.side_flow += outflow.max(0.0);
-            for j in 0..M {
-                if own[j] > 0.0 {
-                    out.full_film_share += kept[k][j] * ring.share[k] * ring.weights()[j];
+            for (j, pressure) in own.iter().enumerate() {
+                if *pressure > 0.0 {
+                    out.full_film_share += kept[j] * ring.share[k] * ring.weights()[j];
                 }
             }
             if own[0] > self.pressure[highest][0] {

@@ -371,3 +371,70 @@ fn between_rows_factors_are_linear_in_the_logarithm_of_the_peklenik_number() {
         })
     ));
 }
+
+/// What films read instead of the laws is the laws, at any gap and for any marks on both surfaces.
+#[test]
+fn tables_are_the_laws() {
+    use super::table::{ERROR, LawTable, SLOPE_ERROR};
+    let mut worst = [0.0_f64; 2];
+    for (journal, shell, g_journal, g_shell) in [
+        (0.13e-6, 0.28e-6, 4.0, 9.0),
+        (0.3e-6, 0.2e-6, 1.0, 1.0),
+        (0.2e-6, 0.4e-6, 1.0 / 9.0, 1.0 / 7.0),
+        (0.5e-6, 0.1e-6, 0.4, 2.0),
+    ] {
+        let factors = FlowFactors::new(&Roughness {
+            journal,
+            shell,
+            peklenik_journal: g_journal,
+            peklenik_shell: g_shell,
+        })
+        .unwrap();
+        let mut around = LawTable::new(f64::INFINITY);
+        let mut along = LawTable::new(f64::INFINITY);
+        let mut cell = LawTable::new(3.0);
+        for i in 0..60_000 {
+            // Evenly in H, then wider and wider.
+            let t = f64::from(i);
+            let h = if i < 50_000 {
+                -5.0 + 4e-4 * t
+            } else {
+                15.0 * (3.3e-4 * (t - 50_000.0)).exp()
+            };
+            let face = |h| factors.at_face(h);
+            let end = |h| factors.at_end(h);
+            let middle = |h| factors.at_cell(h);
+            let read = around.at(h, face).into_iter();
+            let read = read.chain(along.at(h, end)).chain(cell.at(h, middle));
+            let laws = face(h).into_iter().chain(end(h)).chain(middle(h));
+            for (which, (got, want)) in read.zip(laws).enumerate() {
+                // Of shear flow and of the difference of stresses, those of single surfaces are of size 1 and
+                // may cancel; the others are positive.
+                let size = if matches!(which, 1 | 5) {
+                    want.0.abs().max(0.1)
+                } else {
+                    want.0
+                };
+                if size == 0.0 {
+                    assert_eq!(got, want);
+                    continue;
+                }
+                let error = (got.0 - want.0).abs() / size;
+                let slope_error = (got.1 - want.1).abs() / size;
+                assert!(
+                    error < ERROR,
+                    "law {which}, H {h}: {got:?} {want:?} {error:e}"
+                );
+                assert!(
+                    slope_error < SLOPE_ERROR,
+                    "law {which}, H {h}: {got:?} {want:?} {slope_error:e}"
+                );
+                worst = [worst[0].max(error), worst[1].max(slope_error)];
+            }
+        }
+    }
+    println!(
+        "largest errors of value {:e} and slope {:e}",
+        worst[0], worst[1]
+    );
+}

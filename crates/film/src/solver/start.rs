@@ -20,6 +20,14 @@ impl FilmSolver {
             return Ok(());
         };
         coarse.react(state, Step::Steady, conditions)?;
+        self.take_coarse_set();
+        Ok(())
+    }
+
+    /// The set of the film on half the cells.
+    pub(super) fn take_coarse_set(&mut self) {
+        let Some(coarse) = &self.coarse else { return };
+        self.film.is_warm = true;
         let m = self.grid.n_axial();
         let (n_coarse, m_coarse) = (coarse.grid.n_around(), coarse.grid.n_axial());
         let (around, along) = (self.grid.n_around() / n_coarse, m / m_coarse);
@@ -29,7 +37,6 @@ impl FilmSolver {
         }
         let starved = &coarse.film.lines.starved;
         self.film.lines.starved.copy_from_slice(starved);
-        Ok(())
     }
 
     /// A soft shell whose rigid shape the journal overlaps: its displacement is followed from where the

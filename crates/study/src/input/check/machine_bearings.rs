@@ -20,6 +20,8 @@ const CONTACT_KEYS: &[&str] = &[
     "bearing.surface.contact.factor",
     "bearing.surface.contact.asperity_product",
     "bearing.surface.contact.modulus",
+    "bearing.surface.contact.summit_height",
+    "bearing.surface.contact.summit_roughness",
     "bearing.surface.contact.file",
 ];
 const ELASTIC: &str = "bearing.shell.elastic";

@@ -75,14 +75,28 @@ impl Checker<'_> {
     /// What asperities carry.
     fn contact(&mut self) -> Option<ContactLaw> {
         const THEORY: &[&str] = &["factor", "asperity_product", "modulus"];
-        const ALL: &[&str] = &["factor", "asperity_product", "modulus", "file"];
+        const OF_THEORY: &[&str] = &[
+            "factor",
+            "asperity_product",
+            "modulus",
+            "summit_height",
+            "summit_roughness",
+        ];
+        const ALL: &[&str] = &[
+            "factor",
+            "asperity_product",
+            "modulus",
+            "summit_height",
+            "summit_roughness",
+            "file",
+        ];
         if self.entry(CONTACT).is_none() {
             return Some(ContactLaw::None);
         }
         let law = self.text(&format!("{CONTACT}.law"))?;
         let (needed, foreign): (&[&str], &[&str]) = match law.as_str() {
             "greenwood-tripp" => (THEORY, &["file"]),
-            "table" => (&["file"], THEORY),
+            "table" => (&["file"], OF_THEORY),
             _ => (&[], ALL),
         };
         if !self.law_keys(CONTACT, &law, LawKeys { needed, foreign }) {
@@ -94,6 +108,8 @@ impl Checker<'_> {
                 factor: number("factor")?,
                 asperity_product: number("asperity_product")?,
                 modulus: number("modulus")?,
+                summit_height: number("summit_height").unwrap_or(0.0),
+                summit_roughness: number("summit_roughness"),
             }),
             "table" => self.contact_table(&format!("{CONTACT}.file"))?,
             _ => ContactLaw::None,
