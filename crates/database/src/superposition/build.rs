@@ -17,6 +17,8 @@ use std::path::Path;
 /// Of a node: `Phi_1, Phi_2, Theta_1, Theta_2`, the largest `Pi`, and how far extrapolation moved the
 /// first four, over force and moment.
 pub(super) const FIGURES: usize = 6;
+/// Of the random states of a generation.
+const FIRST_SEED: u64 = 0x5EED;
 /// Films between two reports of progress.
 const BATCH: usize = 64;
 
@@ -43,7 +45,7 @@ impl SuperpositionTable {
         let axes = recipe.axes()?;
         let shape = Shape::of(&axes);
         let tasks = tasks(shape);
-        let samples = samples(recipe, &axes);
+        let samples = samples(recipe, &axes, FIRST_SEED);
         let total = tasks.len() + samples.len();
         let mut kept = Kept::beside(path, recipe);
         let mut solved = kept.read(tasks.len());
@@ -73,6 +75,24 @@ impl SuperpositionTable {
             kept.remove();
         }
         Ok(table)
+    }
+
+    /// Errors at other random states, `samples` of each drive, than those of the generation: another `seed`,
+    /// other states. The table stays as it is.
+    ///
+    /// # Errors
+    /// As [`SuperpositionTable::build`].
+    pub fn check(
+        &self,
+        samples_of_each: usize,
+        seed: u64,
+        progress: &mut Progress<'_>,
+    ) -> Result<[Accuracy; 3], DatabaseError> {
+        let mut own = self.clone();
+        own.recipe.samples = samples_of_each;
+        let states = samples(&own.recipe, &self.axes, seed);
+        own.measure(&states, &mut |done| progress(done, states.len()))?;
+        Ok(own.accuracy)
     }
 
     /// Measures the errors at `samples` by direct solutions.
@@ -149,11 +169,11 @@ struct Sample {
 }
 
 /// Random states, evenly spread over the places of the axes, where the gap is open enough. The same for the
-/// same recipe.
-fn samples(recipe: &SuperpositionRecipe, axes: &[Axis; 3]) -> Vec<Sample> {
+/// same recipe and seed.
+fn samples(recipe: &SuperpositionRecipe, axes: &[Axis; 3], seed: u64) -> Vec<Sample> {
     /// A share of states that is never as small as this one finds none.
     const TRIES: usize = 1000;
-    let mut random = SplitMix { state: 0x5EED };
+    let mut random = SplitMix { state: seed };
     let mut samples = Vec::new();
     for drive in Drive::ALL {
         let mut found = 0;
@@ -165,7 +185,8 @@ fn samples(recipe: &SuperpositionRecipe, axes: &[Axis; 3]) -> Vec<Sample> {
                 .each_ref()
                 .map(|axis| axis.at(random.next() * (axis.count() - 1) as f64));
             let tilts = tilt_box::tilts(eps, [share, transverse]);
-            if tilt_box::smallest_gap(eps, tilts[0], tilts[1]) >= recipe.smallest_gap {
+            let is_open = tilt_box::smallest_gap(eps, tilts[0], tilts[1]) >= recipe.smallest_gap;
+            if is_open && eps >= recipe.smallest_eccentricity {
                 samples.push(Sample { drive, eps, tilts });
                 found += 1;
             }

@@ -84,9 +84,10 @@ impl SuperpositionFilm {
             "superposition: pressures of wedge and squeeze are cut apart and their forces added, as in \
              the paper, which errs by tens of percent where both act; tilt rates are neglected; the \
              tables err by at most {:.1e} of the force or moment of each where the relative gap is above \
-             {}",
+             {} and the relative eccentricity above {}",
             worst(|a| a.largest.max(a.node_error)),
-            self.table.recipe().smallest_gap
+            self.table.recipe().smallest_gap,
+            self.table.recipe().smallest_eccentricity
         )
     }
 

@@ -1,7 +1,7 @@
 //! Splines through the nodes of one drive, and what they give between them.
 
 use super::Drive;
-use super::build::FIGURES;
+use super::build::{FIGURES, place_of};
 use super::tilt_box;
 use crate::axis::Axis;
 use crate::error::DatabaseError;
@@ -42,7 +42,8 @@ impl Shape {
 /// Integrals at a state with derivatives by relative eccentricity, tilt along and tilt across.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Looked {
-    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps.
+    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps, below the first eccentricity over a straight
+    /// continuation of 1/eps.
     pub integrals: [f64; 4],
     /// Their derivatives.
     pub slopes: [[f64; 3]; 4],
@@ -53,6 +54,8 @@ pub struct Looked {
 /// Coefficients of the splines of one drive.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
+    /// The first eccentricity, of the wedge.
+    first_of_wedge: Option<f64>,
     extents: [usize; 3],
     coefficients: Vec<f64>,
 }
@@ -65,19 +68,19 @@ impl Fitted {
         shape: Shape,
         nodes: &[[f64; FIGURES]],
     ) -> Result<Self, DatabaseError> {
-        let per_eccentricity = shape.counts[1] * shape.counts[2];
         let mut values = Vec::with_capacity(shape.nodes() * LANES);
         for (index, node) in nodes.iter().enumerate() {
-            let eps = axes[0].value(index / per_eccentricity);
-            let drive = if drive == Drive::Wedge { eps } else { 1.0 };
-            let size = node[..4]
-                .iter()
-                .map(|value| value * value)
-                .sum::<f64>()
-                .sqrt();
-            values.push((size / drive).ln());
-            values.extend(node[..4].iter().map(|value| value / size));
-            values.push((node[4] / size).ln());
+            let (eps, [along, across]) = place_of(axes, shape.place(index));
+            // A tilted wedge has a moment at eps = 0, and its force grows with eps.
+            let (wedge, drive) = match drive {
+                Drive::Wedge => (eps, eps.hypot(along).hypot(across)),
+                _ => (1.0, 1.0),
+            };
+            let parts = [node[0] / wedge, node[1] / wedge, node[2], node[3]];
+            let size = parts.iter().map(|value| value * value).sum::<f64>().sqrt();
+            values.push(size.ln());
+            values.extend(parts.map(|value| value / size));
+            values.push((node[4] / (size * drive)).ln());
         }
         if values.iter().any(|value| !value.is_finite()) {
             return Err(DatabaseError::Unsupported {
@@ -97,6 +100,7 @@ impl Fitted {
             coefficients.extend(fit(line, LANES, ends)?);
         }
         Ok(Self {
+            first_of_wedge: (drive == Drive::Wedge).then(|| axes[0].value(0)),
             extents,
             coefficients,
         })
@@ -118,14 +122,29 @@ impl Fitted {
             own + by_share[1][lane] * share[which] + by_share[2][lane] * transverse[which]
         };
         let size = lanes[0].exp();
+        let (inverse, inverse_slope, drive) = match self.first_of_wedge {
+            Some(first) => {
+                let [inverse, slope] = inverse_from(first, eps);
+                (inverse, slope, eps.hypot(along).hypot(across) * inverse)
+            }
+            None => (1.0, 0.0, 1.0),
+        };
+        let factor = |k: usize| if k < 2 { 1.0 } else { inverse };
+        let own = |k: usize| size * lanes[k + 1];
         Looked {
-            integrals: std::array::from_fn(|k| size * lanes[k + 1]),
+            integrals: std::array::from_fn(|k| factor(k) * own(k)),
             slopes: std::array::from_fn(|k| {
                 std::array::from_fn(|which| {
-                    size * (slope(k + 1, which) + lanes[k + 1] * slope(0, which))
+                    let grown = size * slope(k + 1, which) + own(k) * slope(0, which);
+                    let of_factor = if k >= 2 && which == 0 {
+                        inverse_slope
+                    } else {
+                        0.0
+                    };
+                    factor(k) * grown + of_factor * own(k)
                 })
             }),
-            peak: size * lanes[5].exp(),
+            peak: size * lanes[5].exp() * drive,
         }
     }
 
@@ -157,6 +176,19 @@ impl Fitted {
             }
         }
         (value, slopes)
+    }
+}
+
+/// 1/eps and its derivative, below the first eccentricity along the tangent there: at eps = 0 a wedge has no
+/// direction, and the moment of a tilted one over eps no limit.
+fn inverse_from(first: f64, eps: f64) -> [f64; 2] {
+    if eps >= first {
+        [1.0 / eps, -1.0 / (eps * eps)]
+    } else {
+        [
+            (2.0 * first - eps) / (first * first),
+            -1.0 / (first * first),
+        ]
     }
 }
 

@@ -10,7 +10,7 @@
 //! lacks Phi_2V and Theta_2V, which a transverse tilt makes. Axes: eccentricity, and the two shares of
 //! [`tilt_box`], all even in artanh of their value, so that they are even in the logarithm of the gap
 //! towards contact. Interpolated by cubic splines with two continuous derivatives: the logarithm of the size of
-//! `(Phi_1, Phi_2, Theta_1, Theta_2)`, of the wedge over eps, and the four over that size.
+//! `(Phi_1, Phi_2, Theta_1, Theta_2)`, the forces of the wedge over eps, and the four over that size.
 //! What it is not: forces of separately cut pressures do not add up to that of the film (tens of percent where
 //! the gap closes, more where it opens), and tilt RATES make no force in this scheme: the tilt is taken to turn
 //! with the line of centres. It is for comparison.
@@ -91,6 +91,9 @@ pub struct SuperpositionRecipe {
     pub grid: [usize; 2],
     /// Smallest relative film thickness of the random states that the error is measured at.
     pub smallest_gap: f64,
+    /// Smallest relative eccentricity of those states. With tilts as large as the eccentricity the wedge
+    /// changes its rupture with their ratio, and the tables err by percents.
+    pub smallest_eccentricity: f64,
     /// Number of random states of each drive.
     pub samples: usize,
 }
@@ -109,7 +112,8 @@ impl SuperpositionRecipe {
             wedge_inlet: Inlet::Cyclic,
             grid: [128, 40],
             smallest_gap: 0.02,
-            samples: 100,
+            smallest_eccentricity: 0.25,
+            samples: 60,
         }
     }
 
@@ -122,6 +126,7 @@ impl SuperpositionRecipe {
             largest_shares: [0.0, 0.0],
             tilt_nodes: [1, 1],
             smallest_gap: 0.01,
+            smallest_eccentricity: 0.02,
             samples: 40,
             ..Self::tilted(d_over_b)
         }

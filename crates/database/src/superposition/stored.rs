@@ -148,6 +148,10 @@ fn note_recipe(recipe: &SuperpositionRecipe, contents: &mut Contents) {
         ),
         ("grid", pair(recipe.grid)),
         ("smallest_gap", Value::Number(recipe.smallest_gap)),
+        (
+            "smallest_eccentricity",
+            Value::Number(recipe.smallest_eccentricity),
+        ),
         ("samples", count(recipe.samples)),
         ("tilt_rates", text("neglected")),
     ] {
@@ -179,6 +183,7 @@ fn recipe_of(contents: &Contents, path: &Path) -> Result<SuperpositionRecipe, Da
         wedge_inlet: inlets[word("wedge_inlet", &["cyclic", "max-film-line"])?],
         grid: counts("grid")?,
         smallest_gap: number("smallest_gap")?,
+        smallest_eccentricity: number("smallest_eccentricity")?,
         samples: number("samples")? as usize,
     })
 }
