@@ -336,6 +336,38 @@ fn mixed_big_end_of_a_diesel() {
     }
 }
 
+/// A third of the hours of the example: its first rows are those of the page, and the end is named.
+#[test]
+fn running_in_of_a_big_end() {
+    let changes = [("hours = \"2 h\"", "hours = \"1154 s\"")];
+    let ran = machines::changed("10-running-in", "study.toml", &changes);
+    let summary = ran.summary();
+    assert_eq!(summary["running_in_end"], "time-over");
+    assert_eq!(number(&summary, "running_in_time_s"), 1154.0);
+    let table = Table::read(&ran.results.join("running-in.csv"));
+    let columns = [
+        ("wear_rate[m/s]", 3600e9),
+        ("contact_load_share[-]", 100.0),
+        ("minimum_film_thickness[m]", 1e6),
+        ("shell_roughness[m]", 1e6),
+    ];
+    for (row, shown) in [(0, "0"), (table.rows.len() - 1, "0.32")] {
+        let shown = machines::row("10-running-in", shown);
+        for ((name, factor), shown) in columns.iter().zip(shown) {
+            let value = factor * table.numbers(name)[row];
+            assert!(
+                (value / shown - 1.0).abs() < 0.02,
+                "{name}: {value}, the page says {shown}"
+            );
+        }
+    }
+    let page = ran.report();
+    check_report("10", &page);
+    for words in ["Contact over running-in", "Wear rate over running-in"] {
+        assert!(page.contains(words), "{words}");
+    }
+}
+
 /// From creeping to full film: friction falls, has its minimum, and rises; contact only falls.
 #[test]
 fn stribeck_curve_of_a_bearing() {
@@ -518,6 +550,7 @@ fn every_example_is_run_here() {
             "08-big-end-mixed/study.toml",
             "09-stribeck/bearing.toml",
             "09-stribeck/study.toml",
+            "10-running-in/study.toml",
             "11-database/combined.toml",
             "11-database/study.toml",
             "11-database/superposition.toml",

@@ -215,3 +215,82 @@ def engine(tmp_path_factory):
     film = 'cavitation = "reynolds"\ngrid = [32, 8]'
     study = engine_study(tmp_path_factory.mktemp("study"), [2000, 3500], film)
     return run(study, tmp_path_factory.mktemp("engine"))
+
+
+WORN = """
+schema = 1
+title = "A shell that ran in"
+analysis = "load-cycle"
+
+[bearing]
+diameter = "72 mm"
+width = "30 mm"
+diametral_clearance = "72 um"
+
+[bearing.surface]
+roughness_journal = "0.8 um"
+roughness_shell = "1.2 um"
+boundary_friction = 0.08
+contact = { law = "greenwood-tripp", factor = 1e-3, asperity_product = 0.05, modulus = "53.3 GPa" }
+
+[oil]
+viscosity = "2 mPa.s"
+
+[load_cycle]
+file = "loads.csv"
+engine_speed = "1500 rpm"
+crank_step = "6 deg"
+
+[film]
+cavitation = "reynolds"
+grid = [32, 4]
+
+[wear]
+coefficient = "1e-16 m2/N"
+
+[wear.running_in]
+hours = "4 h"
+settled_below = 0.0
+"""
+
+
+@pytest.fixture(scope="session")
+def worn(tmp_path_factory):
+    """A load cycle with contact after four hours of running-in."""
+    directory = tmp_path_factory.mktemp("study")
+    (directory / "study.toml").write_text(WORN)
+    (directory / "loads.csv").write_bytes((ROOT / "examples/02-big-end-diesel/loads.csv").read_bytes())
+    return run(directory / "study.toml", tmp_path_factory.mktemp("worn"))
+
+
+SURFACE = """
+[bearing.surface]
+roughness_journal = "0.8 um"
+roughness_shell = "1.2 um"
+boundary_friction = 0.08
+contact = { law = "greenwood-tripp", factor = 1e-3, asperity_product = 0.05, modulus = "53.3 GPa" }
+"""
+
+WARM_OIL = """
+[oil]
+viscosity = { law = "vogel", a = "0.06 mPa.s", b = "1000 K", c = "180 K" }
+density = "850 kg/m3"
+heat_capacity = "2100 J/(kg.K)"
+
+[heat]
+model = "balance"
+supply_temperature = "100 degC"
+
+[wear]
+coefficient = "1e-16 m2/N"
+"""
+
+
+@pytest.fixture(scope="session")
+def worn_engine(tmp_path_factory):
+    """An engine whose rough bearings wear and find their temperatures."""
+    study = engine_study(tmp_path_factory.mktemp("study"), [1500], 'cavitation = "reynolds"\ngrid = [24, 4]')
+    text = study.read_text().replace("\n[oil]\n" + 'viscosity = "8 mPa.s"\n', SURFACE + WARM_OIL)
+    text = text.replace('\n[[bearing]]\nof = "big-end"', SURFACE + '\n[[bearing]]\nof = "big-end"')
+    study.write_text(text.replace('crank_step = "4 deg"', 'crank_step = "8 deg"'))
+    return run(study, tmp_path_factory.mktemp("worn-engine"))

@@ -39,7 +39,7 @@ def film_force(pressure, angle, axial, bearing):
     return -np.array([(load * np.cos(phi)[:, None]).sum(), (load * np.sin(phi)[:, None]).sum()])
 
 
-@pytest.mark.parametrize("name", ["steady", "mixed", "cycle", "cycle_frames", "dimensionless", "engine"])
+@pytest.mark.parametrize("name", ["steady", "mixed", "cycle", "cycle_frames", "dimensionless", "engine", "worn", "worn_engine"])
 def test_every_dataset_says_what_it_is(name, request):
     results = request.getfixturevalue(name)
     with h5py.File(results.path("results.h5")) as file:
@@ -331,3 +331,92 @@ def test_loads_of_an_engine_are_tables_of_loads(engine):
                 swing = ratio * np.cos(angle) / np.sqrt(1 - (ratio * np.sin(angle)) ** 2)
                 expected = rpm * np.pi / 30 * (1 + (swing if name == "big-end-1" else 0))
                 assert np.allclose(columns["journal_speed[rad/s]"], expected, rtol=1e-9)
+
+
+def surface_integral(values, group, radius, width):
+    """Integral over a surface whose faces mirror each other at the centres, m2 times the value."""
+
+    def widths(centres, start):
+        faces = [start]
+        for centre in centres:
+            faces.append(2 * centre - faces[-1])
+        return np.diff(faces)
+
+    phi = np.radians(group["angle"][:])
+    return (values * radius * np.outer(widths(phi, 0.0), widths(group["axial"][:], -width / 2))).sum()
+
+
+def test_wear_is_a_map_of_shell_and_journal(worn):
+    with h5py.File(worn.path("results.h5")) as file:
+        summary, bearing = worn.summary, file["bearing"]
+        radius, width = bearing["diameter"][()] / 2, bearing["width"][()]
+        shell, journal = file["accumulated/shell"], file["accumulated/journal"]
+        units = {
+            "wear_load": "J/m2",
+            "friction_energy": "J/m2",
+            "peak_pressure_velocity": "W/m2",
+            "mean_pressure_velocity": "W/m2",
+        }
+        for group in [shell, journal]:
+            for name, unit in units.items():
+                assert group[name].attrs["units"] == unit, name
+                assert group[name].shape == group["maximum_pressure"].shape
+                assert [dimension[0].name for dimension in group[name].dims] == [
+                    group["angle"].name, group["axial"].name]
+            assert np.array_equal(group["friction_energy"][:], 0.08 * group["wear_load"][:])
+            assert np.all(group["peak_pressure_velocity"][:] >= group["mean_pressure_velocity"][:])
+        assert "wear_depth_per_hour" not in journal
+        depth = shell["wear_depth_per_hour"]
+        assert depth.attrs["units"] == "m"
+        assert depth[:].max() == summary["wear_depth_per_hour_m"] > 0
+        # Archard: k times the wear load, 45 000 cycles an hour.
+        cycles = 1500 / 2 * 60
+        assert np.allclose(depth[:], 1e-16 * cycles * shell["wear_load"][:], rtol=1e-12)
+        volume = surface_integral(depth[:], shell, radius, width)
+        assert abs(volume / summary["wear_volume_per_hour_m3"] - 1) < 1e-9
+        # Both surfaces take the same work.
+        works = [surface_integral(group["wear_load"][:], group, radius, width) for group in [shell, journal]]
+        assert abs(works[0] / works[1] - 1) < 1e-9
+        # As power: friction of asperities over a cycle.
+        power = 0.08 * works[0] * cycles / 3600
+        assert abs(power / summary["boundary_power_w"] - 1) < 0.02
+
+
+def test_running_in_is_the_table_and_the_worn_shell(worn):
+    table = worn.table("running-in.csv")
+    with h5py.File(worn.path("results.h5")) as file:
+        group, bearing = file["running_in"], file["bearing"]
+        assert group.attrs["end"] == worn.summary["running_in_end"] == "time-over"
+        for column, values in table.items():
+            name, unit = column.rstrip("]").split("[")
+            assert np.allclose(group[name][:], values, rtol=1e-12, equal_nan=True), name
+            assert group[name].attrs["units"] == {"-": "1"}.get(unit, unit)
+            assert group[name].dims[0][0].name == group["time"].name or name == "time"
+        assert group["time"][-1] == 14400.0 and len(group["time"]) > 2
+        depth = group["shell/worn_depth"]
+        assert depth.shape == file["accumulated/shell/wear_load"].shape
+        assert depth[:].max() == group["worn_depth"][-1] == worn.summary["running_in_depth_m"]
+        radius, width = bearing["diameter"][()] / 2, bearing["width"][()]
+        volume = surface_integral(depth[:], group["shell"], radius, width)
+        assert abs(volume / group["worn_volume"][-1] - 1) < 1e-9
+        roughness = group["shell_roughness"][:]
+        assert roughness[0] == 1.2e-6 and np.all(np.diff(roughness) < 0)
+
+
+def test_bearings_of_an_engine_wear_and_are_warm(worn_engine):
+    table = worn_engine.table("bearings.csv")
+    bearings = worn_engine.summary["bearings"]
+    with h5py.File(worn_engine.path("results.h5")) as file:
+        group = file["speeds/1500rpm/bearings"]
+        for row, bearing in enumerate(bearings):
+            own = group[bearing["name"]]
+            depth = own["accumulated/shell/wear_depth_per_hour"]
+            assert depth.attrs["units"] == "m" and depth.ndim == 2
+            assert depth[:].max() == bearing["wear_depth_per_hour_m"] == table["wear_depth_per_hour[m]"][row]
+            assert bearing["wear_volume_per_hour_m3"] == table["wear_volume_per_hour[m3]"][row]
+            assert own["accumulated/journal/friction_energy"][:].max() > 0
+            warm = own["heat/effective_temperature"]
+            assert warm.attrs["units"] == "K"
+            assert abs(warm[()] - 273.15 - bearing["effective_temperature_degc"]) < 1e-9
+            assert bearing["outlet_temperature_degc"] > bearing["effective_temperature_degc"] > 100
+            assert table["effective_temperature[degC]"][row] == bearing["effective_temperature_degc"]

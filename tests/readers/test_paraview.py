@@ -1,5 +1,6 @@
 """The films as VTK, the library of ParaView, reads them, against the tables of the same run."""
 
+import h5py
 import numpy as np
 import pyvista
 
@@ -87,3 +88,27 @@ def test_a_cycle_has_its_frames(cycle):
         least = table["minimum_film_thickness[m]"][row]
         assert film.cell_data["film thickness [m]"].min() >= least * (1 - 1e-6)
     assert len(list(cycle.path("paraview").iterdir())) == 72
+
+
+def test_wear_of_both_surfaces_is_shown(worn):
+    for name, own in [("shell", ["wear depth per hour [m]", "worn depth [m]"]), ("journal", [])]:
+        surface = pyvista.read(worn.path("paraview") / f"wear-{name}.vts")
+        assert isinstance(surface, pyvista.StructuredGrid) and surface.dimensions == (33, 5, 1)
+        common = ["friction energy [J/m2]", "mean pressure velocity [W/m2]", "peak pressure velocity [W/m2]",
+                  "wear load [J/m2]"]
+        assert sorted(surface.cell_data.keys()) == sorted(common + own)
+        with h5py.File(worn.path("results.h5")) as file:
+            group = file[f"accumulated/{name}"]
+            found = surface.cell_data["wear load [J/m2]"].reshape(4, 32).T
+            assert np.allclose(found, group["wear_load"][:], rtol=1e-6)
+            if name == "shell":
+                worn_off = surface.cell_data["worn depth [m]"].reshape(4, 32).T
+                assert np.allclose(worn_off, file["running_in/shell/worn_depth"][:], rtol=1e-6)
+        # The film wears the shell where the load presses the journal: a cell of the map lies there.
+        if name == "shell":
+            deepest = surface.cell_data["wear depth per hour [m]"].argmax()
+            x, y, _ = surface.cell_centers().points[deepest]
+            angle = np.degrees(np.arctan2(y, x)) % 360
+            apart = (angle - worn.summary["wear_depth_angle_deg"] + 180) % 360 - 180
+            assert abs(apart) < 1
+    assert read(worn).time_values[-1] == 720.0

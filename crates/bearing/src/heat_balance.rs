@@ -82,12 +82,15 @@ impl HeatPath {
         self.supply_temperature + self.outlet_weight * (heat.power - conducted) / carrying
     }
 
-    fn conducted(&self, temperature: f64) -> f64 {
+    /// Heat conducted away from a film at a temperature (K), W.
+    #[must_use]
+    pub fn conducted(&self, temperature: f64) -> f64 {
         self.conductance * (temperature - self.surroundings_temperature)
     }
 
     /// Imbalance in K, finite also where no oil leaves: power that is left over what would carry it.
-    fn imbalance(&self, heat: &FilmHeat, temperature: f64) -> f64 {
+    #[must_use]
+    pub fn imbalance(&self, heat: &FilmHeat, temperature: f64) -> f64 {
         let carrying = heat.volumetric_heat * heat.side_flow / self.outlet_weight;
         let left = heat.power
             - self.conducted(temperature)
@@ -156,6 +159,99 @@ impl HeatPath {
             trials,
             outcome,
         }
+    }
+}
+
+/// The temperatures of several films that answer each other, as on one shaft: each film's step follows
+/// its own imbalance, by the slope of its last two trials within what a film can have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointBalance {
+    path: HeatPath,
+    range: [f64; 2],
+    trials: Vec<HeatTrial>,
+    temperature: f64,
+}
+
+impl JointBalance {
+    /// Slopes of the imbalance by the temperature: -1 with a power that does not change, steeper where a
+    /// warmer film makes less heat.
+    const SLOPES: [f64; 2] = [-6.0, -1.0];
+    /// The first guess of it.
+    const FIRST_SLOPE: f64 = -2.0;
+
+    /// Of one film, at the temperature of its supply, within `range` (K).
+    #[must_use]
+    pub fn new(path: HeatPath, range: [f64; 2]) -> Self {
+        let temperature = path.supply_temperature.clamp(range[0], range[1]);
+        Self {
+            path,
+            range,
+            trials: Vec::new(),
+            temperature,
+        }
+    }
+
+    /// Temperature at which the film is to be looked at next, K.
+    #[must_use]
+    pub fn temperature(&self) -> f64 {
+        self.temperature
+    }
+
+    /// Trials so far.
+    #[must_use]
+    pub fn trials(&self) -> &[HeatTrial] {
+        &self.trials
+    }
+
+    /// Takes the heat of the film at its temperature, and moves it by less than `settled` (K) once it has
+    /// settled: then it stays and `true` comes back. An end of the range that the heat leads beyond is
+    /// none: see [`JointBalance::is_at_end`].
+    pub fn take(&mut self, heat: &FilmHeat, settled: f64) -> bool {
+        let imbalance = self.path.imbalance(heat, self.temperature);
+        self.trials.push(HeatTrial {
+            temperature: self.temperature,
+            imbalance,
+        });
+        if !imbalance.is_finite() {
+            return true;
+        }
+        let [steepest, flattest] = Self::SLOPES;
+        let slope = match self.trials.as_slice() {
+            [.., a, b] if a.temperature != b.temperature => {
+                let found = (b.imbalance - a.imbalance) / (b.temperature - a.temperature);
+                found.clamp(steepest, flattest)
+            }
+            _ => Self::FIRST_SLOPE,
+        };
+        let next = (self.temperature - imbalance / slope).clamp(self.range[0], self.range[1]);
+        if (next - self.temperature).abs() <= settled {
+            return true;
+        }
+        self.temperature = next;
+        false
+    }
+
+    /// The heat leads beyond the range of temperatures.
+    #[must_use]
+    pub fn is_at_end(&self) -> bool {
+        let [low, high] = self.range;
+        self.trials.last().is_some_and(|last| {
+            (last.temperature >= high && last.imbalance > 0.0)
+                || (last.temperature <= low && last.imbalance < 0.0)
+        })
+    }
+
+    /// Temperature of the oil that leaves, K.
+    #[must_use]
+    pub fn outlet_temperature(&self) -> f64 {
+        let supply = self.path.supply_temperature;
+        supply + (self.temperature - supply) / self.path.outlet_weight
+    }
+
+    /// Heat conducted away, W.
+    #[must_use]
+    pub fn conducted(&self) -> f64 {
+        self.path.conducted(self.temperature)
     }
 }
 
@@ -246,5 +342,53 @@ mod tests {
         let cooled = path(20.0).balance([250.0, 450.0], closed).unwrap();
         assert_eq!(cooled.outcome, Outcome::Converged);
         assert!((cooled.conducted - cooled.solution).abs() < 1e-3);
+    }
+
+    /// Two films of which each makes less heat as it warms, and more as the other does: the temperatures
+    /// at which both imbalances vanish, which a linear system gives.
+    #[test]
+    fn films_that_answer_each_other_are_balanced_together() {
+        let path = HeatPath {
+            supply_temperature: 360.0,
+            conductance: 0.0,
+            surroundings_temperature: 360.0,
+            outlet_weight: 0.5,
+        };
+        // w P / (rho c Q) = a - b (T - 360) + c (other - 360), K
+        let rises = [[20.0, 1.5, 0.2], [9.0, 0.6, 0.3]];
+        let heat = |own: f64, other: f64, [a, b, c]: [f64; 3]| FilmHeat {
+            power: 2.0 * (a - b * (own - 360.0) + c * (other - 360.0)),
+            side_flow: 1e-6,
+            volumetric_heat: 1e6,
+            outcome: Outcome::Converged,
+        };
+        let mut both = [0, 1].map(|_| JointBalance::new(path, [300.0, 500.0]));
+        let mut passes = 0;
+        loop {
+            passes += 1;
+            let now = [both[0].temperature(), both[1].temperature()];
+            let of_first = both[0].take(&heat(now[0], now[1], rises[0]), 1e-6);
+            let of_second = both[1].take(&heat(now[1], now[0], rises[1]), 1e-6);
+            if of_first && of_second {
+                break;
+            }
+            assert!(passes < 20);
+        }
+        // x (1 + b) - c y = a, y (1 + b) - c x = a
+        let determinant = 2.5 * 1.6 - 0.2 * 0.3;
+        let exact = [
+            (20.0 * 1.6 + 0.2 * 9.0) / determinant,
+            (9.0 * 2.5 + 0.3 * 20.0) / determinant,
+        ];
+        for (found, exact) in both.iter().zip(exact) {
+            let rise = found.temperature() - 360.0;
+            assert!((rise - exact).abs() < 1e-5, "{rise} {exact}");
+            assert!((found.outlet_temperature() - 360.0 - 2.0 * exact).abs() < 2e-5);
+            assert!(!found.is_at_end());
+        }
+        // Heat that nothing carries leads to the end of the range.
+        let mut stuck = JointBalance::new(path, [300.0, 370.0]);
+        while !stuck.take(&heat(stuck.temperature(), 360.0, [50.0, 0.0, 0.0]), 1e-6) {}
+        assert!(stuck.is_at_end() && stuck.temperature() == 370.0);
     }
 }

@@ -26,7 +26,7 @@ pub use coefficients::{Coefficients, instant_coefficients};
 pub use cycle_table::{CycleTable, HeldTilt};
 pub use equilibrium::{Equilibrium, EquilibriumRequest, EquilibriumSettings, find_equilibrium};
 pub use expansion::{Expansion, PressedShell, ShellFit};
-pub use heat_balance::{FilmHeat, HeatBalanced, HeatPath, HeatTrial};
+pub use heat_balance::{FilmHeat, HeatBalanced, HeatPath, HeatTrial, JointBalance};
 pub use heat_field::{HeatFieldSettings, WarmEquilibrium, warm_equilibrium};
 pub use load_cycle::{
     CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, PressureCycle, closing_edge,
@@ -34,7 +34,9 @@ pub use load_cycle::{
 pub use orbit::{
     CycleHeat, Observer, OrbitSettings, OrbitStart, Progress, WarmOrbit, journal_orbit, warm_orbit,
 };
-pub use running_in::{RanIn, RunningIn, RunningInEnd, RunningInStep, WornCycle, run_in};
+pub use running_in::{
+    RanIn, RunningIn, RunningInEnd, RunningInStep, WornCycle, WornRoughness, run_in,
+};
 pub use stability::{Stability, WhirlThreshold, rotor_stability, whirl_threshold};
 pub use stability_chart::{Onset, SpeedPoint, StabilityChart, stability_chart};
 pub use step_control::Substeps;

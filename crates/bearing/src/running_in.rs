@@ -1,22 +1,46 @@
 //! How does a shell run in, and when has it done so?
 //!
-//! Equation: `d(depth)/dt = k int p_c |U| dt / period` at every cell of the shell, with the contact
-//! pressure of the orbit (or equilibrium) in the worn bore: the depth is a profile of radial offsets
-//! ([`sommerfeld_film::ProfileTable`]) added to the bore.
-//! Unknowns: the depth at the cells of the film's grid, m.
-//! Method: explicit steps; in one step no place wears deeper than a share of the roughness, over
-//! which the contact pressure changes by little. First order in that share.
-//! The shell has run in when the map of the wear rate no longer changes from step to step.
+//! ```text
+//! d(depth)/dt = k int p_c |U| dt / period          at every cell of the shell, with its worn bore
+//! s_shell     = rms of the Gaussian heights truncated by the mean worn depth D
+//! D           = int depth^2 dA / int depth dA      mean over the worn zone, weighted by contact work
+//! ```
+//! The depth is a profile of radial offsets ([`sommerfeld_film::ProfileTable`]) added to the bore: the
+//! mean plane falls by what is worn. The summits are what is worn first, so that the roughness falls too
+//! ([`sommerfeld_film::WornHeights`]), to 0.584 of what it was once they are all gone.
+//! Unknowns: the depth at the cells of the film's grid, m; one roughness of the shell.
+//! Method: explicit steps of the second order (Adams and Bashforth, steps of any length), one cycle each.
+//! A step is as long as no place wears deeper than a share of the roughness and no rate, going on as in
+//! the step before, changes by more than half of the largest. The first step, of the first order, is half
+//! as deep.
+//! The shell has run in when the map of the wear rates no longer changes from step to step, or when the
+//! largest rate has faded to the same share of what it was.
 //!
 //! Assumptions: the shell is the softer surface and wears alone; the wear coefficient stays; oil and
-//! duty stay. The roughness stays too: how far its peaks are smoothed depends on how it was made, and
-//! no law of a few measured parameters is at hand. Beyond the outermost cells the profile goes on as
-//! it ends.
-//! References: J. F. Archard, J. Appl. Phys. 24 (1953) 981, 10.1063/1.1721448.
+//! duty stay. The film knows one roughness per bearing: that of the worn zone stands for all of it,
+//! outside of which nothing touches. The dimensionless groups of the contact law stay, as they are
+//! alike for surfaces of any roughness; a measured table of contact stays as a whole. Beyond the outermost
+//! cells the profile goes on as it ends.
+//! References: J. F. Archard, J. Appl. Phys. 24 (1953) 981, 10.1063/1.1721448; T. G. King, W. Watson, K.
+//! J. Stout, The micro-geometry of the running-in process, 4th Leeds-Lyon Symposium, 1978.
+
+#[cfg(test)]
+mod tests;
 
 use crate::wear::WearMap;
 use serde::{Deserialize, Serialize};
-use sommerfeld_film::{Bearing, Feature, FilmError, Outcome, ProfileTable};
+use sommerfeld_film::{Bearing, Feature, FilmError, Finish, Outcome, ProfileTable, WornHeights};
+
+/// What wear does to the roughness of the shell.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WornRoughness {
+    /// Its summits are truncated by the worn depth.
+    #[default]
+    Truncated,
+    /// It stays: wear moves the profile alone.
+    Kept,
+}
 
 /// How long a shell runs in, and how finely that is followed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -25,25 +49,34 @@ pub struct RunningIn {
     pub coefficient: f64,
     /// Time to run, s.
     pub duration: f64,
-    /// Largest depth that one step wears, m: about a tenth of the composite roughness.
+    /// Largest depth that one step wears, m: about a fifth of the composite roughness.
     pub largest_depth: f64,
-    /// The shell has run in when the wear rate of no cell changes in a step by more than this share of
-    /// the largest rate; 0 runs the whole time. Default 0.02.
+    /// The shell has run in when the wear rate of no cell changes by more than this share of the largest
+    /// rate while the deepest place wears by `largest_depth`, or when the largest rate is below this
+    /// share of the first one; 0 runs the whole time. Default 0.02.
     pub settled_below: f64,
     /// Steps at most. Default 100.
     pub step_limit: usize,
+    /// What becomes of the roughness.
+    pub roughness: WornRoughness,
 }
 
+/// Largest change of a rate that a step may lead to, over the largest rate.
+const LARGEST_CHANGE: f64 = 0.5;
+/// Share of the usual depth of the first step, which is of the first order.
+const FIRST_SHARE: f64 = 0.5;
+
 impl RunningIn {
-    /// With the usual steps: a tenth of the composite roughness (m) each.
+    /// With the usual steps: a fifth of the composite roughness (m) each.
     #[must_use]
     pub fn of(coefficient: f64, duration: f64, roughness: f64) -> Self {
         Self {
             coefficient,
             duration,
-            largest_depth: 0.1 * roughness,
+            largest_depth: 0.2 * roughness,
             settled_below: 0.02,
             step_limit: 100,
+            roughness: WornRoughness::Truncated,
         }
     }
 }
@@ -55,6 +88,8 @@ pub struct WornCycle {
     pub on_shell: WearMap,
     /// Share of the load that asperities carry, as the caller defines it.
     pub contact_share: f64,
+    /// Thinnest film of the cycle, m.
+    pub minimum_film_thickness: f64,
     /// How the cycle was solved; anything but converged ends the running-in.
     pub outcome: Outcome,
 }
@@ -66,6 +101,7 @@ impl WornCycle {
         Self {
             on_shell: WearMap::default(),
             contact_share: f64::NAN,
+            minimum_film_thickness: f64::NAN,
             outcome,
         }
     }
@@ -82,8 +118,16 @@ pub struct RunningInStep {
     pub deepest_rate: f64,
     /// Wear volume per time at its start, m3/s.
     pub volume_rate: f64,
+    /// Largest depth worn until its start, m.
+    pub depth: f64,
+    /// Volume worn until its start, m3.
+    pub volume: f64,
+    /// rms roughness of the shell at its start, m.
+    pub shell_roughness: f64,
     /// Contact share at its start.
     pub contact_share: f64,
+    /// Thinnest film at its start, m.
+    pub minimum_film_thickness: f64,
     /// Largest change of the wear rate of a cell since the step before, over the largest rate before;
     /// not a number for the first.
     pub rate_change: f64,
@@ -95,6 +139,8 @@ pub struct RunningInStep {
 pub enum RunningInEnd {
     /// The map of wear rates settled, or nothing wears.
     Settled,
+    /// The largest wear rate has become a small share of what it was at first.
+    Faded,
     /// The time was over first.
     TimeOver,
     /// The steps were used up first.
@@ -109,6 +155,7 @@ impl RunningInEnd {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Settled => "settled",
+            Self::Faded => "faded",
             Self::TimeOver => "time-over",
             Self::StepLimit => "step-limit",
             Self::NotSolved(_) => "not-solved",
@@ -121,7 +168,11 @@ impl RunningInEnd {
 pub struct RanIn {
     /// The bearing with its worn bore.
     pub bearing: Bearing,
-    /// Depth worn at the cells of the shell, m, placed as in [`WearMap`].
+    /// Centres of the cells of the shell around, rad from +X of the shell.
+    pub angles: Vec<f64>,
+    /// Centres of the cells along the axis, m from the mid-plane.
+    pub axial: Vec<f64>,
+    /// Depth worn at these cells, m, placed as in [`WearMap`].
     pub depth: Vec<f64>,
     /// Steps, and the bearing at the end as a last row.
     pub steps: Vec<RunningInStep>,
@@ -129,6 +180,16 @@ pub struct RanIn {
     pub time: f64,
     /// Why it ended.
     pub end: RunningInEnd,
+}
+
+/// The step before.
+struct Past {
+    /// Wear rates at its start, m/s.
+    rates: Vec<f64>,
+    /// s.
+    duration: f64,
+    /// Largest depth that it wore, m.
+    deepest: f64,
 }
 
 /// Runs the shell of `bearing` in. `solve` solves the cycle of a bearing and tells what it wears; its
@@ -143,14 +204,8 @@ pub fn run_in(
     mut solve: impl FnMut(&Bearing) -> Result<WornCycle, FilmError>,
 ) -> Result<RanIn, FilmError> {
     check(settings)?;
-    let mut ran = RanIn {
-        bearing: bearing.clone(),
-        depth: Vec::new(),
-        steps: Vec::new(),
-        time: 0.0,
-        end: RunningInEnd::StepLimit,
-    };
-    let mut before: Vec<f64> = Vec::new();
+    let mut ran = RanIn::fresh(bearing);
+    let mut past: Option<Past> = None;
     loop {
         let cycle = solve(&ran.bearing)?;
         if cycle.outcome != Outcome::Converged {
@@ -158,29 +213,29 @@ pub fn run_in(
             return Ok(ran);
         }
         let rates = cycle.on_shell.depth_rate(settings.coefficient);
-        if ran.steps.is_empty() {
-            ran.depth = vec![0.0; rates.len()];
-        } else if rates.len() != before.len() {
-            return Err(FilmError::Unsupported {
-                reason: "the cells of a shell changed while it ran in",
-            });
-        }
-        let mut step = ran.next_step(settings, &cycle, largest_change(&before, &rates));
-        if ran.steps.len() == settings.step_limit {
+        ran.place(&cycle.on_shell)?;
+        let mut step = ran.next_step(settings, &cycle, &rates, past.as_ref());
+        if step.duration > 0.0 && ran.steps.len() == settings.step_limit {
+            ran.end = RunningInEnd::StepLimit;
             step.duration = 0.0;
         }
         ran.steps.push(step);
         if step.duration == 0.0 {
             return Ok(ran);
         }
-        ran.wear(bearing, &cycle.on_shell, &rates, step.duration)?;
+        let worn = worn_in(&rates, past.as_ref(), step.duration);
+        ran.wear(bearing, settings.roughness, &cycle.on_shell, &worn)?;
         let is_over = step.duration >= settings.duration - step.time;
         ran.time = if is_over {
             settings.duration
         } else {
             step.time + step.duration
         };
-        before = rates;
+        past = Some(Past {
+            rates,
+            duration: step.duration,
+            deepest: largest(&worn),
+        });
     }
 }
 
@@ -198,57 +253,123 @@ fn check(settings: &RunningIn) -> Result<(), FilmError> {
     })
 }
 
-/// Largest change of a rate over the largest one before; not a number without one before.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// Largest difference of two rates of a cell, m/s.
 fn largest_change(before: &[f64], now: &[f64]) -> f64 {
-    if before.is_empty() {
-        return f64::NAN;
-    }
-    let most = before.iter().copied().fold(0.0, f64::max);
     let pairs = before.iter().zip(now);
-    let change = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    if change == 0.0 { 0.0 } else { change / most }
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// Depth (m) that a step of a length (s) wears, not below zero: the rates at its start and, after a first
+/// step, half of the way on which they have been moving.
+fn worn_in(rates: &[f64], past: Option<&Past>, duration: f64) -> Vec<f64> {
+    let weight = past.map_or(0.0, |past| 0.5 * duration / past.duration);
+    let before = |cell: usize| past.map_or(0.0, |past| past.rates[cell]);
+    let worn = rates.iter().enumerate();
+    worn.map(|(cell, rate)| (duration * (rate + weight * (rate - before(cell)))).max(0.0))
+        .collect()
+}
+
+/// Length of the next step, s, where nothing ends it sooner.
+fn length(settings: &RunningIn, rates: &[f64], past: Option<&Past>) -> f64 {
+    let most = largest(rates);
+    let by_depth = settings.largest_depth / most;
+    let Some(past) = past else {
+        return FIRST_SHARE * by_depth;
+    };
+    let change = largest_change(&past.rates, rates) / past.duration;
+    // A rate that does not change gives an infinite length.
+    by_depth.min(LARGEST_CHANGE * most / change)
+}
+
+/// Whether a shell with these rates has run in.
+fn has_run_in(settings: &RunningIn, rates: &[f64], past: Option<&Past>) -> bool {
+    let Some(past) = past else {
+        return false;
+    };
+    // A short step changes little and tells little.
+    let change = largest_change(&past.rates, rates) * settings.largest_depth / past.deepest;
+    change < settings.settled_below * largest(&past.rates)
 }
 
 impl RanIn {
+    fn fresh(bearing: &Bearing) -> Self {
+        Self {
+            bearing: bearing.clone(),
+            angles: Vec::new(),
+            axial: Vec::new(),
+            depth: Vec::new(),
+            steps: Vec::new(),
+            time: 0.0,
+            end: RunningInEnd::TimeOver,
+        }
+    }
+
+    /// Takes the cells of the first map; those of the others are the same.
+    fn place(&mut self, map: &WearMap) -> Result<(), FilmError> {
+        if self.steps.is_empty() {
+            self.angles.clone_from(&map.angles);
+            self.axial.clone_from(&map.axial);
+            self.depth = vec![0.0; map.wear_load.len()];
+        } else if self.depth.len() != map.wear_load.len() {
+            return Err(FilmError::Unsupported {
+                reason: "the cells of a shell changed while it ran in",
+            });
+        }
+        Ok(())
+    }
+
     /// What the solved cycle leads to, with a length of zero where running-in ends.
     fn next_step(
         &mut self,
         settings: &RunningIn,
         cycle: &WornCycle,
-        rate_change: f64,
+        rates: &[f64],
+        past: Option<&Past>,
     ) -> RunningInStep {
-        let deepest_rate = cycle.on_shell.deepest_rate(settings.coefficient).value;
+        let deepest_rate = largest(rates);
+        let first = self.steps.first().map_or(deepest_rate, |s| s.deepest_rate);
         let left = settings.duration - self.time;
-        let is_settled = rate_change < settings.settled_below || deepest_rate == 0.0;
         let duration = if left <= 0.0 {
             self.end = RunningInEnd::TimeOver;
             0.0
-        } else if is_settled {
+        } else if deepest_rate == 0.0 || has_run_in(settings, rates, past) {
             self.end = RunningInEnd::Settled;
             0.0
+        } else if deepest_rate < settings.settled_below * first {
+            self.end = RunningInEnd::Faded;
+            0.0
         } else {
-            left.min(settings.largest_depth / deepest_rate)
+            left.min(length(settings, rates, past))
         };
+        let change = past.map(|past| (largest_change(&past.rates, rates), largest(&past.rates)));
         RunningInStep {
             time: self.time,
             duration,
             deepest_rate,
             volume_rate: cycle.on_shell.volume_rate(settings.coefficient),
+            depth: largest(&self.depth),
+            volume: cycle.on_shell.integral(&self.depth),
+            shell_roughness: shell_roughness(&self.bearing.finish),
             contact_share: cycle.contact_share,
-            rate_change,
+            minimum_film_thickness: cycle.minimum_film_thickness,
+            rate_change: change.map_or(f64::NAN, |(change, most)| change / most),
         }
     }
 
-    /// Wears the bore of the new `bearing` for a time, s.
+    /// Wears the bore of the new `bearing` by more depth at each cell, m.
     fn wear(
         &mut self,
         bearing: &Bearing,
+        roughness: WornRoughness,
         map: &WearMap,
-        rates: &[f64],
-        duration: f64,
+        worn: &[f64],
     ) -> Result<(), FilmError> {
-        for (depth, rate) in self.depth.iter_mut().zip(rates) {
-            *depth += rate * duration;
+        for (depth, more) in self.depth.iter_mut().zip(worn) {
+            *depth += more;
         }
         let table = ProfileTable::new(map.angles.clone(), map.axial.clone(), self.depth.clone());
         let table = table.map_err(|_| FilmError::Unsupported {
@@ -256,128 +377,31 @@ impl RanIn {
         })?;
         self.bearing.bore = bearing.bore.clone();
         self.bearing.bore.features.push(Feature::Table(table));
+        let is_truncated = roughness == WornRoughness::Truncated;
+        if let (Finish::Rough(own), true) = (&mut self.bearing.finish, is_truncated) {
+            let fresh = shell_roughness(&bearing.finish);
+            own.roughness.shell = WornHeights::of(fresh, mean_depth(map, &self.depth)).rms;
+        }
         Ok(())
     }
 }
 
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
-mod tests {
-    use super::*;
-    use sommerfeld_film::{Cavitation, Elasticity, Ends, FilmShear, Finish, Inlet, Shape};
-
-    const RATE: f64 = 1e-12;
-    const SOFTNESS: f64 = 2e-7;
-
-    fn bearing() -> Bearing {
-        Bearing {
-            diameter: 0.05,
-            width: 0.02,
-            radial_clearance: 2e-5,
-            bore: Shape::cylindrical(),
-            journal: Shape::cylindrical(),
-            feeds: Vec::new(),
-            ambient_pressure: 0.0,
-            cavitation_pressure: 0.0,
-            ends: Ends::Air,
-            inlet: Inlet::Cyclic,
-            cavitation: Cavitation::Gumbel,
-            film_shear: FilmShear::FullWidth,
-            finish: Finish::Smooth,
-            elasticity: Elasticity::Rigid,
-        }
+/// rms roughness of the shell, m.
+fn shell_roughness(finish: &Finish) -> f64 {
+    match finish {
+        Finish::Smooth => 0.0,
+        Finish::Rough(rough) => rough.roughness.shell,
     }
+}
 
-    /// A cycle whose contact pressure falls by a factor e for each `SOFTNESS` worn off the bore.
-    fn fading(bearing: &Bearing) -> Result<WornCycle, FilmError> {
-        let angles = vec![0.5, 2.0, 4.0];
-        let wear = |angle: &f64| RATE * (-bearing.bore.offset(*angle, 0.0) / SOFTNESS).exp();
-        let wear_load: Vec<f64> = angles.iter().map(wear).collect();
-        Ok(WornCycle {
-            contact_share: wear_load[0] / RATE,
-            on_shell: WearMap {
-                angles,
-                axial: vec![0.0],
-                angle_widths: vec![2.0; 3],
-                axial_widths: vec![0.02],
-                radius: 0.025,
-                duration: 1.0,
-                peak_pressure_velocity: vec![0.0; 3],
-                mean_pressure_velocity: vec![0.0; 3],
-                wear_load,
-            },
-            outcome: Outcome::Converged,
-        })
-    }
-
-    fn settings(largest_depth: f64) -> RunningIn {
-        RunningIn {
-            coefficient: 1.0,
-            duration: 3.6e6,
-            largest_depth,
-            settled_below: 0.0,
-            step_limit: 100_000,
-        }
-    }
-
-    /// `dw/dt = r exp(-w/s)` from nothing: `w = s ln(1 + r t / s)`, reached by the first order.
-    #[test]
-    fn wear_that_fades_with_depth_follows_its_closed_form() {
-        let exact = SOFTNESS * (1.0 + RATE * 3.6e6 / SOFTNESS).ln();
-        let error = |largest: f64| {
-            let ran = run_in(&bearing(), &settings(largest), fading).unwrap();
-            assert_eq!(ran.end, RunningInEnd::TimeOver);
-            let total: f64 = ran.steps.iter().map(|step| step.duration).sum();
-            assert!((total / 3.6e6 - 1.0).abs() < 1e-12 && ran.time == 3.6e6);
-            assert_eq!(ran.steps.last().unwrap().duration, 0.0);
-            assert!((ran.bearing.bore.offset(2.0, 0.003) - ran.depth[1]).abs() < 1e-20);
-            ran.depth[0] / exact - 1.0
-        };
-        let (coarse, fine) = (error(0.1 * SOFTNESS), error(0.05 * SOFTNESS));
-        let order = (coarse / fine).log2();
-        assert!(
-            fine.abs() < 0.02 && (order - 1.0).abs() < 0.1,
-            "{coarse} {fine}"
-        );
-    }
-
-    #[test]
-    fn it_ends_where_rates_settle_and_where_steps_are_used_up() {
-        let limited = RunningIn {
-            step_limit: 7,
-            ..settings(0.1 * SOFTNESS)
-        };
-        let ran = run_in(&bearing(), &limited, fading).unwrap();
-        assert_eq!((ran.end, ran.steps.len()), (RunningInEnd::StepLimit, 8));
-        // A tenth of the softness off changes the rate by a tenth.
-        let settling = RunningIn {
-            settled_below: 0.12,
-            ..settings(0.1 * SOFTNESS)
-        };
-        let ran = run_in(&bearing(), &settling, fading).unwrap();
-        assert_eq!((ran.end, ran.steps.len()), (RunningInEnd::Settled, 2));
-        assert!((ran.time * RATE - 0.1 * SOFTNESS).abs() < 1e-20);
-        let unsolved = |bearing: &Bearing| {
-            let starved = !bearing.bore.is_cylindrical();
-            Ok(WornCycle {
-                outcome: if starved {
-                    Outcome::Starved
-                } else {
-                    Outcome::Converged
-                },
-                ..fading(bearing)?
-            })
-        };
-        let ran = run_in(&bearing(), &settling, unsolved).unwrap();
-        assert_eq!(ran.end, RunningInEnd::NotSolved(Outcome::Starved));
-        assert_eq!(ran.steps.len(), 1);
-    }
-
-    #[test]
-    fn settings_that_are_none_are_refused() {
-        for bad in [0.0, -1.0, f64::NAN] {
-            let settings = RunningIn::of(1e-16, bad, 3e-7);
-            assert!(run_in(&bearing(), &settings, fading).is_err());
-        }
+/// Mean of the worn depth (m) over the worn zone, each place weighted by the contact work that it has
+/// taken, which is its depth.
+fn mean_depth(map: &WearMap, depth: &[f64]) -> f64 {
+    let squares: Vec<f64> = depth.iter().map(|depth| depth * depth).collect();
+    let volume = map.integral(depth);
+    if volume > 0.0 {
+        map.integral(&squares) / volume
+    } else {
+        0.0
     }
 }

@@ -104,10 +104,16 @@ impl WearMap {
     /// Wear load over the whole surface, J: contact pressure over the bearing times sliding distance.
     #[must_use]
     pub fn total(&self) -> f64 {
+        self.integral(&self.wear_load)
+    }
+
+    /// Integral over the surface (m2) of a value per cell.
+    #[must_use]
+    pub fn integral(&self, values: &[f64]) -> f64 {
         let along = self.axial.len();
-        let cells = self.wear_load.iter().enumerate();
+        let cells = values.iter().enumerate();
         let sum: f64 = cells
-            .map(|(k, load)| load * self.angle_widths[k / along] * self.axial_widths[k % along])
+            .map(|(k, value)| value * self.angle_widths[k / along] * self.axial_widths[k % along])
             .sum();
         sum * self.radius
     }

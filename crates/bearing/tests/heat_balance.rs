@@ -209,7 +209,7 @@ fn the_field_of_an_oil_at_one_temperature_leaves_as_warm_as_the_reference() {
         carry_over: 1.0,
         wall: (0.0, supply[0]),
     };
-    let warmed = film.warm(&surroundings, 1.0).unwrap();
+    let warmed = film.led_to(&surroundings, false).unwrap().warmed;
     let rise = warmed.outlet - supply[0];
     let expected = stated("outlet_temperature[C]") - 58.0;
     println!("rise at the sides {rise:.3} K, heat balance {expected:.3} K");

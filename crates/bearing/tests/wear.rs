@@ -6,7 +6,7 @@ mod common;
 use common::{CONDITIONS, diesel_big_end, diesel_cycle, plain_bearing};
 use sommerfeld_bearing::{
     CycleWear, EquilibriumRequest, EquilibriumSettings, OrbitSettings, RunningIn, RunningInEnd,
-    WornCycle, find_equilibrium, journal_orbit, run_in, wear,
+    WornCycle, WornRoughness, find_equilibrium, journal_orbit, run_in, wear,
 };
 use sommerfeld_film::{
     Bearing, Cavitation, ContactLaw, FilmError, FilmForce, FilmSolver, Finish, GreenwoodTripp,
@@ -105,6 +105,7 @@ fn tilted(bearing: &Bearing) -> Result<WornCycle, FilmError> {
     Ok(WornCycle {
         on_shell: record.on_shell.finish(),
         contact_share: x.hypot(y) / 3000.0,
+        minimum_film_thickness: film.summary().minimum_film_thickness.value,
         outcome: found.outcome,
     })
 }
@@ -138,4 +139,81 @@ fn a_tilted_journal_runs_its_edge_in() {
     assert!(edge == 0 || edge == 15, "{edge}");
     let after = tilted(&ran.bearing).unwrap();
     assert_eq!(after.outcome, Outcome::Converged);
+}
+
+/// Share of the load on asperities, largest pressure of film and of asperities (Pa) of a slow aligned
+/// journal, step by step, on cells around; the roughness stays so that the profile alone is seen.
+fn scarred(cells: usize, steps: usize) -> Vec<(f64, [f64; 3])> {
+    const LOAD: f64 = 6000.0;
+    let oil = Lubricant::constant(8e-3, 850.0);
+    let mut bearing = plain_bearing(0.050, 0.020, 25e-6);
+    bearing.cavitation = Cavitation::Reynolds;
+    bearing.finish = rough();
+    let settings = RunningIn {
+        settled_below: 0.0,
+        step_limit: steps,
+        roughness: WornRoughness::Kept,
+        ..RunningIn::of(COEFFICIENT, 1e7, SIGMA)
+    };
+    let mut seen = Vec::new();
+    let ran = run_in(&bearing, &settings, |bearing| {
+        let mut film = FilmSolver::new(bearing, &oil, [cells, 8])?;
+        let request = EquilibriumRequest {
+            load: [0.0, -LOAD],
+            moment: None,
+            frame: JournalState {
+                journal_speed: 10.0,
+                ..JournalState::default()
+            },
+            start: None,
+            settings: EquilibriumSettings::default(),
+        };
+        let found = find_equilibrium(&mut film, bearing, &request, &CONDITIONS)?;
+        let field = film.field().unwrap();
+        let mut record = CycleWear::new(bearing.radius(), &field);
+        record.see(&field, &found.state, 1.0);
+        let [x, y] = found.reaction.contact_force;
+        let share = x.hypot(y) / LOAD;
+        let summary = film.summary();
+        seen.push([
+            share,
+            summary.peak_film_pressure.value,
+            summary.peak_contact_pressure.value,
+        ]);
+        Ok(WornCycle {
+            on_shell: record.on_shell.finish(),
+            contact_share: share,
+            minimum_film_thickness: summary.minimum_film_thickness.value,
+            outcome: found.outcome,
+        })
+    })
+    .unwrap();
+    assert_eq!(ran.end, RunningInEnd::StepLimit);
+    ran.steps.iter().map(|step| step.depth).zip(seen).collect()
+}
+
+/// Where an aligned journal under a steady load wears its own scar, asperities carry more of it and
+/// not less: the scar follows the journal, a gap of even width has no wedge, and the film loses more than
+/// the asperities, whose pressure falls as the load spreads. It is no matter of the grid: twice the cells
+/// say the same.
+#[test]
+fn a_scar_that_follows_the_journal_takes_load_off_the_film() {
+    let coarse = scarred(96, 10);
+    for pair in coarse.windows(2) {
+        let ([(_, before), (_, after)], all) = ([pair[0], pair[1]], &coarse);
+        assert!(after[0] > before[0], "share of contact: {all:?}");
+        assert!(after[1] < before[1], "film pressure: {all:?}");
+        assert!(after[2] < before[2], "contact pressure: {all:?}");
+    }
+    let ((depth, [share, film, contact]), first) = (coarse[10], coarse[0].1);
+    assert!(depth > 1.5 * SIGMA && share > 1.3 * first[0], "{coarse:?}");
+    assert!(
+        film < 0.7 * first[1] && contact < 0.7 * first[2],
+        "{coarse:?}"
+    );
+    let (fine_depth, fine) = scarred(192, 10)[10];
+    assert!((fine_depth / depth - 1.0).abs() < 0.01);
+    for (a, b) in [share, film, contact].iter().zip(fine) {
+        assert!((a / b - 1.0).abs() < 0.04, "{coarse:?} {fine:?}");
+    }
 }

@@ -33,7 +33,7 @@ mod torsion;
 
 pub use coupled::{
     COUPLED_ERROR_TOLERANCE, CoupledJournal, CoupledObserver, CoupledOrbits, CoupledRequest,
-    FilmExecutor, FilmUpdate, ShaftForces, coupled_orbits, in_sequence,
+    FilmExecutor, FilmUpdate, ShaftForces, coupled_orbits, coupled_orbits_from, in_sequence,
 };
 pub use crank_train::{CrankTrain, Rod, Unbalance};
 pub use drilling::{

@@ -49,6 +49,7 @@ pub mod spectral;
 pub mod supply;
 pub mod surfaces;
 pub mod vogelpohl;
+mod worn_heights;
 
 pub use bearing::{
     Bearing, Carrier, Cavitation, Ends, Feed, FeedLine, FeedShape, FilmShear, Inlet,
@@ -69,3 +70,4 @@ pub use roughness::{FinishError, OfGap, Roughness};
 pub use shape::{Feature, ProfileTable, ReliefForm, Shape};
 pub use solver::FilmSolver;
 pub use spectral::OnlineFilm;
+pub use worn_heights::WornHeights;

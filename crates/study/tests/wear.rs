@@ -140,3 +140,84 @@ fn without_wear_in_the_study_there_is_none() {
     .to_string();
     assert!(errors.contains("nothing wears without contact"), "{errors}");
 }
+
+/// Running-in goes on to the end of the hours, each orbit from the end of the one before; the roughness of
+/// the shell falls with it, or stays if it is to. What it found stands in its files.
+#[test]
+fn running_in_lasts_for_the_hours_given() {
+    let hours = |roughness: &str| {
+        BIG_END.replace("[48, 8]", "[32, 4]")
+            + "[wear.running_in]\nhours = \"2 h\"\nsettled_below = 0.0\nstep_depth = 0.4\n"
+            + roughness
+    };
+    let results = solved(&hours(""));
+    let found = cycle(&results);
+    let ran = found.running_in.as_ref().unwrap();
+    assert_eq!(ran.end.name(), "time-over");
+    assert_eq!((ran.time, ran.steps.last().unwrap().time), (7200.0, 7200.0));
+    assert!(ran.steps.len() > 2, "{:?}", ran.steps);
+    assert!(results.header.status == sommerfeld_study::Outcome::Converged);
+    for pair in ran.steps.windows(2) {
+        assert!(pair[1].shell_roughness < pair[0].shell_roughness);
+        assert!(pair[1].deepest_rate < pair[0].deepest_rate, "{pair:?}");
+        assert!(pair[1].depth > pair[0].depth && pair[1].volume > pair[0].volume);
+    }
+    let directory = tempfile::tempdir().unwrap();
+    sommerfeld_study::output::write_all(&results, directory.path()).unwrap();
+    let table = std::fs::read_to_string(directory.path().join("running-in.csv")).unwrap();
+    assert_eq!(table.lines().count(), ran.steps.len() + 1);
+    assert!(table.starts_with("time[s],duration[s],wear_rate[m/s],"));
+    let keys = summary(&results);
+    let last = ran.steps.last().unwrap();
+    assert_eq!(keys["running_in_shell_roughness_m"], last.shell_roughness);
+    assert_eq!(keys["running_in_volume_m3"], last.volume);
+    let page = std::fs::read_to_string(directory.path().join("report.html")).unwrap();
+    for words in [
+        "Roughness over running-in",
+        "Worn profile around",
+        "the time given is over",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+
+    let results = solved(&hours("roughness = \"kept\"\n"));
+    let kept = cycle(&results).running_in.as_ref().unwrap();
+    let mut steps = kept.steps.iter();
+    assert!(steps.all(|step| step.shell_roughness == 1.2e-6));
+    // The same first orbit, another course after it.
+    assert_eq!(kept.steps[0].deepest_rate, ran.steps[0].deepest_rate);
+    assert!(kept.steps[1].deepest_rate > ran.steps[1].deepest_rate);
+}
+
+/// A shell whose first orbit does not close says so, and its results can be written.
+#[test]
+fn running_in_that_cannot_begin_is_a_status() {
+    let text = BIG_END
+        .replace("[48, 8]", "[32, 4]")
+        .replace("crank_step", "maximum_cycles = 1\ncrank_step")
+        + "running_in = { hours = \"1 h\" }\n";
+    let results = solved(&text);
+    assert_eq!(summary(&results)["status"], "not-converged");
+    assert_eq!(summary(&results)["running_in_end"], "not-solved");
+    let mut messages = results.header.messages.iter();
+    assert!(messages.any(|told| told.contains("ran in for 0.000 h only")));
+    let directory = tempfile::tempdir().unwrap();
+    sommerfeld_study::output::write_all(&results, directory.path()).unwrap();
+}
+
+/// What the film loses is boundary, shear of the oil and squeeze; the viscous power of the contract holds
+/// the last two.
+#[test]
+fn the_split_of_friction_tells_squeeze_from_shear() {
+    let keys = summary(&solved(&BIG_END.replace("[48, 8]", "[32, 4]")));
+    let number = |key: &str| keys[key].as_f64().unwrap();
+    let viscous = number("viscous_power_w");
+    let parts = number("viscous_shear_power_w") + number("squeeze_power_w");
+    assert!((parts / viscous - 1.0).abs() < 1e-12, "{parts} {viscous}");
+    let all = viscous + number("boundary_power_w");
+    assert!((all / number("mean_power_loss_w") - 1.0).abs() < 1e-12);
+    let friction = number("viscous_shear_power_w") + number("boundary_power_w");
+    assert!((friction / number("mean_friction_power_w") - 1.0).abs() < 1e-12);
+    assert_eq!(number("squeeze_power_w"), number("mean_squeeze_power_w"));
+    assert!(number("squeeze_power_w").abs() > 0.0);
+}

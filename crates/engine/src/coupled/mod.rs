@@ -30,7 +30,7 @@ use sommerfeld_bearing::motion::{add, coordinates};
 use sommerfeld_bearing::{
     CyclePoint, CycleTilt, JournalOrbit, LoadCycle, LoadPoint, OrbitSettings, Progress, Substeps,
 };
-use sommerfeld_film::{Bearing, Conditions, FilmError, FilmForce, Outcome};
+use sommerfeld_film::{Bearing, Conditions, FilmError, FilmForce, JournalState, Outcome};
 use sommerfeld_flex::CondensedShaft;
 use std::ops::ControlFlow;
 use time_step::{Moving, Stepper, Trial};
@@ -126,10 +126,29 @@ pub fn coupled_orbits<'a>(
     request: &CoupledRequest<'a>,
     observer: &mut CoupledObserver<'_>,
 ) -> Result<CoupledOrbits, FilmError> {
+    coupled_orbits_from(journals, None, request, observer)
+}
+
+/// [`coupled_orbits`] from given states of the journals (position and tilt) and the content that the
+/// films remember: those of the last point of an orbit that differs little.
+///
+/// # Errors
+/// As [`coupled_orbits`]; [`FilmError::Unsupported`] for another number of states than journals.
+pub fn coupled_orbits_from<'a>(
+    journals: Vec<CoupledJournal<'a>>,
+    starts: Option<&[JournalState]>,
+    request: &CoupledRequest<'a>,
+    observer: &mut CoupledObserver<'_>,
+) -> Result<CoupledOrbits, FilmError> {
+    if starts.is_some_and(|starts| starts.len() != journals.len()) {
+        return Err(FilmError::Unsupported {
+            reason: "each journal of a shaft needs a state to start from",
+        });
+    }
     let duties: Vec<&LoadCycle> = journals.iter().map(|journal| journal.duty).collect();
     let settings = request.settings;
     let mut run = Run::new(journals, &duties, request)?;
-    if let Some(outcome) = run.start(observer)? {
+    if let Some(outcome) = run.start(starts, observer)? {
         return Ok(run.result(&duties, 1, f64::NAN, outcome));
     }
     let mut closure = f64::NAN;
@@ -251,16 +270,23 @@ impl<'a> Run<'a> {
     }
 
     /// Start state, its rates and the first points.
-    fn start(&mut self, observer: &mut CoupledObserver<'_>) -> Result<Option<Outcome>, FilmError> {
-        self.moving.positions =
-            start::settled(&mut self.stepper, self.first_angle, self.is_constant)?;
+    fn start(
+        &mut self,
+        starts: Option<&[JournalState]>,
+        observer: &mut CoupledObserver<'_>,
+    ) -> Result<Option<Outcome>, FilmError> {
+        self.moving.positions = match starts {
+            Some(starts) => starts.iter().map(coordinates).collect(),
+            None => start::settled(&mut self.stepper, self.first_angle, self.is_constant)?,
+        };
         if !self.stepper.has_history {
             let trial = self.stepper.start_motion(&self.moving, self.crank_step)?;
             let outcome = trial.outcome;
             self.moving = trial.end.clone();
             return Ok(self.publish(&trial, outcome, 1, observer));
         }
-        let (trial, histories) = start::filled(&mut self.stepper, &self.moving)?;
+        let keeps = starts.is_some();
+        let (trial, histories) = start::filled(&mut self.stepper, &self.moving, keeps)?;
         let stopped = self.publish(&trial, trial.outcome, 1, observer);
         for (place, history) in self.stepper.places.iter_mut().zip(&histories) {
             place.film.reject_step();

@@ -133,11 +133,12 @@ fn largest_move(
     .fold(0.0, f64::max)
 }
 
-/// The first points of films with history, and the content they start from: that of the film at rest,
-/// or a full one where there is none.
+/// The first points of films with history, and the content they start from: what they remember if they
+/// keep it, else that of the film at rest, or a full one where there is none.
 pub(super) fn filled(
     stepper: &mut Stepper<'_>,
     start: &Moving,
+    keeps_content: bool,
 ) -> Result<(Trial, Vec<FilmHistory>), FilmError> {
     let mut histories = Vec::with_capacity(stepper.places.len());
     let mut trial = Trial {
@@ -152,11 +153,14 @@ pub(super) fn filled(
     };
     for (place, position) in stepper.places.iter_mut().zip(&start.positions) {
         let state = place.state(start.crank_angle, *position, [0.0; 4]);
+        let kept = keeps_content.then(|| place.film.history());
         let answer = {
             let conditions = place.supply.at(start.crank_angle);
             place.film.react(&state, Step::Steady, &conditions)?
         };
-        histories.push(if answer.outcome == Outcome::Converged {
+        histories.push(if let Some(kept) = kept {
+            kept
+        } else if answer.outcome == Outcome::Converged {
             place.film.accept_step();
             place.film.history()
         } else {

@@ -86,7 +86,9 @@ impl MachinePlan {
     /// the supply pressures that change over the period.
     #[must_use]
     pub fn supplied(&self, bearing: &MachineBearing, speed: f64) -> (Bearing, Vec<PressureCycle>) {
-        let density = self.lubricant.density(self.temperature, 0.0).value;
+        let supply = self.heat.path().map(|path| path.supply_temperature);
+        let temperature = supply.unwrap_or(self.temperature);
+        let density = self.lubricant.density(temperature, 0.0).value;
         bearing.supplied(density, speed, self.period())
     }
 }

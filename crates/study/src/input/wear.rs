@@ -1,6 +1,6 @@
 //! What a study asks about wear.
 
-use sommerfeld_bearing::RunningIn;
+use sommerfeld_bearing::{RunningIn, WornRoughness};
 use sommerfeld_film::{Bearing, Finish};
 
 /// What wears, and whether the shell is to run in.
@@ -23,6 +23,8 @@ pub struct RunningInPlan {
     pub step_depth: f64,
     /// Largest change of the wear rate in a step, over the largest rate, of a shell that has run in.
     pub settled_below: f64,
+    /// What becomes of the roughness.
+    pub roughness: WornRoughness,
 }
 
 impl WearPlan {
@@ -39,6 +41,7 @@ impl WearPlan {
             largest_depth: plan.step_depth * rough.roughness.composite(),
             settled_below: plan.settled_below,
             step_limit: plan.steps,
+            roughness: plan.roughness,
         })
     }
 }

@@ -16,6 +16,7 @@
 //! | `cycle/` | the columns of `cycle.csv` \[crank_angle\]; `converged`, 1 where the step did | load cycles |
 //! | `fields/` | the same \[crank_angle, angle, axial\] with their axes, over the last cycle | load cycles with a film on a grid |
 //! | `accumulated/shell/`, `accumulated/journal/` | what each point of that surface has seen over the last cycle: `minimum_film_thickness`, `maximum_pressure`, `pressure_amplitude`, `full_film_share` \[angle, axial\], angles from +X of the surface; with wear `wear_load`, `friction_energy` of asperities, `peak_pressure_velocity`, `mean_pressure_velocity`, of the shell `wear_depth_per_hour` | the same |
+//! | `running_in/` | the columns of `running-in.csv` \[time\], attribute `end`; in `shell/` `worn_depth` \[angle, axial\] | a shell that ran in |
 //!
 //! `[output] fields` of the study chooses the instants of `fields/`.
 //!
@@ -25,12 +26,12 @@
 //! |---|---|
 //! | `engine/`, `orders/` | the columns of `engine.csv` and `orders.csv`, mean effective pressures, mean torque |
 //! | `torsion/` | natural frequencies, mean heat of each link |
-//! | `bearings/<name>/` | attributes `role`, `status`; in it `bearing/`, `load/` (the load cycle), `cycle/`, `accumulated/` as above; `worst/`, the film at its thinnest; at the first speed `fields/`, the frames of the cycle |
+//! | `bearings/<name>/` | attributes `role`, `status`; in it `bearing/`, where its heat is balanced `heat/` (temperatures, K), `load/` (the load cycle), `cycle/`, `accumulated/` as above; `worst/`, the film at its thinnest; at the first speed `fields/`, the frames of the cycle |
 
 mod machine;
 
 use super::csv::cycle_columns;
-use super::{OutputError, ResultWriter, StoredFields, json, replace_with};
+use super::{OutputError, ResultWriter, StoredFields, json, replace_with, running_in};
 use crate::hdf5::{Attribute, Node, Writer};
 use crate::results::{
     AccumulatedMap, Body, CycleFields, CycleResults, FieldSnapshot, Header, PROGRAM, Results,
@@ -38,7 +39,7 @@ use crate::results::{
 };
 use crate::spool::{FieldSpool, Quantity};
 use serde_json::Value;
-use sommerfeld_bearing::CyclePoint;
+use sommerfeld_bearing::{CyclePoint, RanIn};
 use sommerfeld_film::{Bearing, Outcome};
 use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
@@ -105,6 +106,9 @@ pub fn write(
         Body::LoadCycle(cycle) => {
             file.bearing(root, &cycle.bearing)?;
             file.cycle(root, cycle, stored)?;
+            if let Some(ran) = &cycle.running_in {
+                file.running_in(root, ran)?;
+            }
         }
         Body::Machine(machine) => file.machine(machine)?,
         Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => {}
@@ -241,6 +245,20 @@ impl<W: Write + Seek> Layout<W> {
             Some(fields) => self.fields(place, fields, stored),
             None => Ok(()),
         }
+    }
+
+    /// How the shell ran in, and what it has lost.
+    fn running_in(&mut self, place: Node, ran: &RanIn) -> io::Result<()> {
+        let group = self.file.group(place, "running_in")?;
+        self.file.set(group, "end", ran.end.name());
+        // A first cycle that was not solved leaves neither steps nor cells.
+        if ran.steps.is_empty() {
+            return Ok(());
+        }
+        self.columns(group, running_in::columns(ran))?;
+        let shell = self.file.group(group, "shell")?;
+        let depth: [(&str, &str, &[f64]); 1] = [("worn_depth", "m", &ran.depth)];
+        self.surface(shell, &ran.angles, &ran.axial, &depth)
     }
 
     /// What the surfaces have seen over a cycle, and the fields of its instants.

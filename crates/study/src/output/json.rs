@@ -2,6 +2,10 @@
 //!
 //! Numbers that are not finite become `null`: JSON has no word for them.
 
+mod mixed;
+
+use mixed::{contact_keys, heat_keys, wear_keys};
+
 use super::machine::{rounded_rpm, status_of};
 use super::{OutputError, ResultWriter};
 use crate::cases::{CaseStatus, SweepResults};
@@ -12,9 +16,9 @@ use crate::oil_holes::{OilHole, oil_holes};
 use crate::results::database::DatabaseResults;
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{
-    Body, CycleResults, DimensionlessResults, Dynamics, Header, HeatResults, InstantCoefficients,
-    ModelEnd, ModelRun, PROGRAM, PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees,
-    film_parameter, magnitude, specific_load, stability_name, status_name,
+    Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, ModelEnd,
+    ModelRun, PROGRAM, PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees, film_parameter,
+    magnitude, specific_load, stability_name, status_name,
 };
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
@@ -127,38 +131,6 @@ fn looked_up(databases: &[DatabaseFacts]) -> Value {
     all.collect()
 }
 
-/// The temperature that the heat of the film led to.
-fn heat_keys(heat: &HeatResults) -> Map<String, Value> {
-    let celsius = |kelvin: f64| json!(kelvin - 273.15);
-    let trials: Vec<Value> = heat.trials.iter().copied().map(celsius).collect();
-    let keys = [
-        (
-            "effective_temperature_degc",
-            celsius(heat.effective_temperature),
-        ),
-        ("supply_temperature_degc", celsius(heat.supply_temperature)),
-        ("outlet_temperature_degc", celsius(heat.outlet_temperature)),
-        ("conducted_heat_w", json!(heat.conducted)),
-        (
-            "warm_diametral_clearance_m",
-            json!(2.0 * heat.radial_clearance),
-        ),
-        ("heat_balance_trials_degc", Value::Array(trials)),
-    ];
-    let mut keys: Map<String, Value> = keys
-        .map(|(key, value)| (key.to_owned(), value))
-        .into_iter()
-        .collect();
-    if let Some(field) = &heat.field {
-        keys.insert("hottest_temperature_degc".into(), celsius(field.hottest));
-        keys.insert("heat_generated_w".into(), json!(field.generated));
-        keys.insert("heat_carried_out_w".into(), json!(field.carried_out));
-        keys.insert("energy_balance_relative".into(), json!(field.balance_error));
-        keys.insert("temperature_changes_k".into(), json!(field.changes));
-    }
-    keys
-}
-
 /// Keys of a summary that a plain run repeats: of a steady state, of a load cycle.
 const COMPARED: &[&str] = &[
     "minimum_film_thickness_m",
@@ -240,16 +212,6 @@ fn compared_keys(body: Option<&Body>) -> Map<String, Value> {
         .collect()
 }
 
-/// What asperities carry and lose; `boundary` and `total` are powers, W.
-fn contact_keys(peak: Option<f64>, share: f64, boundary: f64, total: f64) -> Value {
-    json!({
-        "peak_contact_pressure_pa": peak,
-        "contact_load_share": share,
-        "boundary_power_w": boundary,
-        "viscous_power_w": total - boundary,
-    })
-}
-
 /// The first speed at the top, every speed in a list of its own.
 fn machine_keys(machine: &MachineResults, limits: &[LimitCheck]) -> Value {
     let mut keys = json!({ "load_model": machine.load_model });
@@ -313,6 +275,7 @@ fn bearing_keys(bearing: &BearingResults, limits: &[LimitCheck]) -> Value {
     }
     if let (Value::Object(keys), Value::Object(cycle)) = (&mut keys, cycle_keys(&bearing.cycle)) {
         keys.extend(cycle);
+        keys.extend(bearing.heat.iter().flat_map(heat_keys));
     }
     if !limits.is_empty() {
         let checks = limits.iter().map(|check| bearing.check(&check.limit));
@@ -429,8 +392,11 @@ fn steady_keys(steady: &SteadyResults) -> Value {
         let contact = contact_keys(
             Some(summary.peak_contact_pressure.value),
             steady.contact_load_share(),
-            summary.boundary_power,
-            summary.power_loss(),
+            [
+                summary.boundary_power,
+                summary.friction_power,
+                summary.squeeze_power,
+            ],
         );
         keys.extend(as_map(contact));
     }
@@ -586,8 +552,11 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
         keys.extend(as_map(contact_keys(
             contact.map(|p| p.summary.peak_contact_pressure.value),
             cycle.contact_load_share(),
-            cycle.mean(|p| p.summary.boundary_power),
-            cycle.mean(|p| p.summary.power_loss()),
+            [
+                cycle.mean(|p| p.summary.boundary_power),
+                cycle.mean(|p| p.summary.friction_power),
+                cycle.mean(|p| p.summary.squeeze_power),
+            ],
         )));
         let angle = contact.map(|p| degrees(p.crank_angle));
         keys.insert("peak_contact_pressure_angle_deg".into(), json!(angle));
@@ -602,39 +571,6 @@ fn cycle_keys(cycle: &CycleResults) -> Value {
     }
     if !cycle.coefficients.is_empty() {
         keys["coefficients"] = cycle.coefficients.iter().map(instant).collect();
-    }
-    keys
-}
-
-/// Wear of the shell, largest friction energy and pressure times speed of both surfaces.
-fn wear_keys(cycle: &CycleResults) -> Map<String, Value> {
-    let mut keys = Map::new();
-    let fields = cycle.fields.as_ref();
-    if let Some(wear) = fields.and_then(|fields| fields.on_shell.wear.as_ref()) {
-        let largest = |values: &[f64]| values.iter().copied().reduce(f64::max);
-        let deepest = wear.deepest_per_hour();
-        let all = [
-            ("wear_depth_per_hour_m", deepest.map(|d| d.value)),
-            ("wear_depth_angle_deg", deepest.map(|d| degrees(d.angle))),
-            ("wear_depth_position_m", deepest.map(|d| d.axial)),
-            ("wear_volume_per_hour_m3", wear.volume_per_hour()),
-            (
-                "peak_pressure_velocity_w_m2",
-                largest(&wear.map.peak_pressure_velocity),
-            ),
-            ("friction_energy_j_m2", largest(&wear.friction_energy())),
-        ];
-        keys.extend(all.map(|(key, value)| (key.to_owned(), json!(value))));
-    }
-    if let Some(ran) = &cycle.running_in {
-        let deepest = ran.depth.iter().copied().reduce(f64::max);
-        keys.insert("running_in_time_s".into(), json!(ran.time));
-        keys.insert("running_in_end".into(), json!(ran.end.name()));
-        keys.insert("running_in_depth_m".into(), json!(deepest));
-        keys.insert(
-            "running_in_steps".into(),
-            json!(ran.steps.len().saturating_sub(1)),
-        );
     }
     keys
 }

@@ -259,10 +259,47 @@ const BEARING_COLUMNS: &[BearingColumn] = &[
     }),
 ];
 
+/// Columns that stand in the table where a bearing has a value for them.
+type FurtherColumn = (&'static str, fn(&BearingResults) -> Option<f64>);
+
+const FURTHER_COLUMNS: &[FurtherColumn] = &[
+    ("contact_load_share[-]", |b| {
+        touches(b).then(|| b.cycle.contact_load_share())
+    }),
+    ("peak_contact_pressure[Pa]", |b| {
+        let peak = b.cycle.peak_contact_pressure().filter(|_| touches(b));
+        peak.map(|p| p.summary.peak_contact_pressure.value)
+    }),
+    ("mean_boundary_power[W]", |b| {
+        touches(b).then(|| b.cycle.mean(|p| p.summary.boundary_power))
+    }),
+    ("wear_depth_per_hour[m]", |b| {
+        Some(b.cycle.shell_wear()?.deepest_per_hour()?.value)
+    }),
+    ("wear_volume_per_hour[m3]", |b| {
+        b.cycle.shell_wear()?.volume_per_hour()
+    }),
+    ("effective_temperature[degC]", |b| {
+        Some(b.heat.as_ref()?.effective_temperature - 273.15)
+    }),
+    ("outlet_temperature[degC]", |b| {
+        Some(b.heat.as_ref()?.outlet_temperature - 273.15)
+    }),
+];
+
+fn touches(bearing: &BearingResults) -> bool {
+    bearing.cycle.bearing.finish.has_contact() && !bearing.cycle.orbit.points.is_empty()
+}
+
 fn bearings_table(machine: &MachineResults, limits: &[LimitCheck]) -> Result<Vec<u8>, OutputError> {
     let mut table = Table::new(BearingsTable.file_name());
     let first = ["speed[rpm]", "bearing", "role", "status"].map(str::to_owned);
     let columns = BEARING_COLUMNS.iter().map(|(name, _)| (*name).to_owned());
+    let further = FURTHER_COLUMNS.iter();
+    let further: Vec<&FurtherColumn> = further
+        .filter(|(_, value)| machine.bearings().any(|(_, one)| value(one).is_some()))
+        .collect();
+    let columns = columns.chain(further.iter().map(|(name, _)| (*name).to_owned()));
     let judged = limits
         .iter()
         .map(|check| format!("limit_{}", check.limit.quantity.key()));
@@ -277,6 +314,9 @@ fn bearings_table(machine: &MachineResults, limits: &[LimitCheck]) -> Result<Vec
         let values = BEARING_COLUMNS
             .iter()
             .map(|(_, value)| number(value(&bearing.cycle)));
+        let more = further.iter();
+        let more = more.map(|(_, value)| number(value(bearing).unwrap_or(f64::NAN)));
+        let values = values.chain(more);
         let judged = limits.iter().map(|check| {
             let verdict = match bearing.check(&check.limit).verdict {
                 Verdict::Ok => "OK",

@@ -6,6 +6,7 @@ mod hdf5;
 mod html;
 mod json;
 mod machine;
+mod running_in;
 mod stability;
 mod vtk;
 
@@ -15,6 +16,7 @@ pub use hdf5::Hdf5Results;
 pub use html::HtmlReport;
 pub use json::{SummaryJson, summary};
 pub use machine::{BearingTables, BearingsTable, EngineTables};
+pub use running_in::RunningInTable;
 pub use stability::StabilityTable;
 pub use vtk::ParaView;
 
@@ -98,6 +100,7 @@ pub const WRITERS: &[&dyn ResultWriter] = &[
     &Hdf5Results,
     &ParaView,
     &StabilityTable,
+    &RunningInTable,
     &CaseTable,
     &BearingsTable,
     &EngineTables,

@@ -3,15 +3,18 @@
 //! The film is the bore, a cylinder of its nominal radius in m with +Z along the axis, as a structured
 //! grid that closes around. Each cell of the film is a cell here and carries its values as computed;
 //! its borders lie half-way between cell centres, the outermost ones on the ends of the bearing. A
-//! cycle has a film for each of its frames, its time the crank angle in degrees.
+//! cycle has a film for each of its frames, its time the crank angle in degrees. With wear there are
+//! `paraview/wear-shell.vts` and `paraview/wear-journal.vts`, too: what contact does to each surface over
+//! the cycle, and what running-in has worn off the shell, in the frame of that surface.
 //!
 //! Reference: Kitware, *VTK XML formats* (data inline, zlib, base64).
 
 use super::{OutputError, ResultWriter, StoredFields, replace_file};
-use crate::results::{Body, FieldSnapshot, Results, degrees};
+use crate::results::{Body, FieldSnapshot, Results, SurfaceWear, degrees};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use sommerfeld_film::Bearing;
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
@@ -38,7 +41,7 @@ impl ResultWriter for ParaView {
     }
 
     fn describe(&self) -> &'static str {
-        "film pressure, film fraction and film thickness on the bore, where they are fields contact pressure and temperature, for ParaView"
+        "film pressure, film fraction and film thickness on the bore, where they are fields contact pressure and temperature; wear of shell and journal; for ParaView"
     }
 
     fn write(
@@ -59,13 +62,16 @@ impl ResultWriter for ParaView {
         let mut files = Vec::new();
         for film in &films {
             let path = place.join(&film.name);
-            let content = surface(bearing, film).map_err(|source| OutputError::Disk {
-                action: "build",
-                path: path.clone(),
-                source,
-            })?;
-            replace_file(&path, content.as_bytes())?;
-            files.push(path);
+            let cells = Cells {
+                angles: &film.field.angles,
+                axial: &film.field.axial,
+            };
+            let content = surface(bearing, &cells, &film_arrays(film.field));
+            files.push(put(path, content)?);
+        }
+        for (name, cells, arrays) in worn_surfaces(results) {
+            let content = surface(bearing, &cells, &arrays);
+            files.push(put(place.join(name), content)?);
         }
         remove_others(&place, &files);
         let path = directory.join(self.file_name());
@@ -73,6 +79,90 @@ impl ResultWriter for ParaView {
         files.push(path);
         Ok(files)
     }
+}
+
+/// Writes a surface that was built.
+fn put(path: PathBuf, content: io::Result<String>) -> Result<PathBuf, OutputError> {
+    let content = content.map_err(|source| OutputError::Disk {
+        action: "build",
+        path: path.clone(),
+        source,
+    })?;
+    replace_file(&path, content.as_bytes())?;
+    Ok(path)
+}
+
+/// Centres of the cells of a surface.
+struct Cells<'a> {
+    angles: &'a [f64],
+    axial: &'a [f64],
+}
+
+/// Values per cell with their name.
+type Arrays<'a> = Vec<(&'static str, Cow<'a, [f64]>)>;
+
+fn film_arrays(field: &FieldSnapshot) -> Arrays<'_> {
+    let all = [
+        ("pressure [Pa]", &field.pressure),
+        ("film fraction", &field.film_fraction),
+        ("film thickness [m]", &field.film_thickness),
+        ("contact pressure [Pa]", &field.contact_pressure),
+        ("temperature [K]", &field.temperature),
+    ];
+    let given = all.into_iter().filter(|(_, values)| !values.is_empty());
+    given
+        .map(|(name, values)| (name, Cow::Borrowed(values.as_slice())))
+        .collect()
+}
+
+/// What contact has done to shell and journal over a load cycle, where the study asks for it.
+fn worn_surfaces(results: &Results) -> Vec<(&'static str, Cells<'_>, Arrays<'_>)> {
+    let Body::LoadCycle(cycle) = &results.body else {
+        return Vec::new();
+    };
+    let Some(fields) = &cycle.fields else {
+        return Vec::new();
+    };
+    let ran_in = cycle
+        .running_in
+        .as_ref()
+        .filter(|ran| !ran.depth.is_empty());
+    let surfaces = [
+        ("wear-shell.vts", &fields.on_shell, ran_in),
+        ("wear-journal.vts", &fields.on_journal, None),
+    ];
+    let surfaces = surfaces.into_iter();
+    surfaces
+        .filter_map(|(name, map, ran_in)| {
+            let wear = map.wear.as_ref()?;
+            let mut arrays = wear_arrays(wear);
+            arrays.extend(ran_in.map(|ran| ("worn depth [m]", Cow::from(&ran.depth))));
+            let cells = Cells {
+                angles: &wear.map.angles,
+                axial: &wear.map.axial,
+            };
+            Some((name, cells, arrays))
+        })
+        .collect()
+}
+
+fn wear_arrays(wear: &SurfaceWear) -> Arrays<'_> {
+    let seen = &wear.map;
+    let mut arrays: Arrays<'_> = vec![
+        ("wear load [J/m2]", Cow::from(&seen.wear_load)),
+        ("friction energy [J/m2]", Cow::from(wear.friction_energy())),
+        (
+            "peak pressure velocity [W/m2]",
+            Cow::from(&seen.peak_pressure_velocity),
+        ),
+        (
+            "mean pressure velocity [W/m2]",
+            Cow::from(&seen.mean_pressure_velocity),
+        ),
+    ];
+    let depth = wear.depth_per_hour();
+    arrays.extend(depth.map(|depth| ("wear depth per hour [m]", Cow::from(depth))));
+    arrays
 }
 
 /// The bearing and its films; `None` if the results hold no fields.
@@ -104,7 +194,8 @@ fn remove_others(place: &Path, files: &[PathBuf]) {
     for entry in fs::read_dir(place).into_iter().flatten().flatten() {
         let (path, name) = (entry.path(), entry.file_name());
         let name = name.to_string_lossy();
-        let is_film = name.starts_with("film") && name.ends_with(".vts");
+        let is_ours = ["film", "wear-"].iter().any(|ours| name.starts_with(ours));
+        let is_film = is_ours && name.ends_with(".vts");
         if is_film && !files.contains(&path) {
             // The list does not name it: what cannot be removed does no harm.
             let _ = fs::remove_file(path);
@@ -127,10 +218,9 @@ fn list(films: &[Shown<'_>]) -> String {
     text + "</Collection>\n</VTKFile>\n"
 }
 
-/// One film as a structured grid: first index around, second along the axis.
-fn surface(bearing: &Bearing, film: &Shown<'_>) -> io::Result<String> {
-    let field = film.field;
-    let (around, along) = (field.angles.len(), field.axial.len());
+/// Values on the bore as a structured grid: first index around, second along the axis.
+fn surface(bearing: &Bearing, cells: &Cells<'_>, arrays: &Arrays<'_>) -> io::Result<String> {
+    let (around, along) = (cells.angles.len(), cells.axial.len());
     let by_cell = |values: &[f64]| -> Vec<f32> {
         let cells = (0..along).flat_map(|j| (0..around).map(move |i| i * along + j));
         cells.map(|cell| values[cell] as f32).collect()
@@ -142,29 +232,21 @@ fn surface(bearing: &Bearing, film: &Shown<'_>) -> io::Result<String> {
          compressor=\"vtkZLibDataCompressor\">\n",
     );
     text += &format!("<StructuredGrid WholeExtent=\"{extent}\">\n<Piece Extent=\"{extent}\">\n");
-    text += "<CellData Scalars=\"pressure [Pa]\">\n";
-    for (name, values) in [
-        ("pressure [Pa]", &field.pressure),
-        ("film fraction", &field.film_fraction),
-        ("film thickness [m]", &field.film_thickness),
-        ("contact pressure [Pa]", &field.contact_pressure),
-        ("temperature [K]", &field.temperature),
-    ] {
-        if values.is_empty() {
-            continue;
-        }
+    let first = arrays.first().map_or("", |(name, _)| name);
+    text += &format!("<CellData Scalars=\"{first}\">\n");
+    for (name, values) in arrays {
         array(&mut text, name, 1, &by_cell(values))?;
     }
     text += "</CellData>\n<Points>\n";
-    array(&mut text, "bore [m]", 3, &points(bearing, field))?;
+    array(&mut text, "bore [m]", 3, &points(bearing, cells))?;
     text += "</Points>\n</Piece>\n</StructuredGrid>\n</VTKFile>\n";
     Ok(text)
 }
 
 /// Corners of the cells on the bore; the last ones around lie on the first.
-fn points(bearing: &Bearing, field: &FieldSnapshot) -> Vec<f32> {
+fn points(bearing: &Bearing, cells: &Cells<'_>) -> Vec<f32> {
     let radius = bearing.radius();
-    let (angles, half) = (&field.angles, 0.5 * bearing.width);
+    let (angles, half) = (cells.angles, 0.5 * bearing.width);
     let between = |pair: &[f64]| 0.5 * (pair[0] + pair[1]);
     let (Some(first), Some(last)) = (angles.first(), angles.last()) else {
         return Vec::new();
@@ -173,7 +255,7 @@ fn points(bearing: &Bearing, field: &FieldSnapshot) -> Vec<f32> {
     let mut corners = vec![seam];
     corners.extend(angles.windows(2).map(between));
     let mut ends = vec![-half];
-    ends.extend(field.axial.windows(2).map(between));
+    ends.extend(cells.axial.windows(2).map(between));
     ends.push(half);
     let circle: Vec<[f32; 2]> = corners
         .iter()

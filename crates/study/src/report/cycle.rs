@@ -10,7 +10,7 @@ use super::page::{
 };
 use super::spark::spark;
 use super::steady::further_cards;
-use super::{compare_models, contact, cycle_tables, figures, heat, surfaces};
+use super::{compare_models, contact, cycle_tables, figures, heat, surfaces, wear};
 use crate::limits::Quantity;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use serde_json::{Value, json};
@@ -78,6 +78,7 @@ pub(super) fn part(
     part.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
     part.sections.extend(compare_models::section(header));
     part.sections.extend(contact::section(cycle));
+    part.sections.extend(wear::section(cycle));
     if let Some(fields) = fields {
         part.hole = surfaces::hole_sentence(&cycle.bearing, &fields.on_journal, units);
         // Where speeds share the places of the figures, the sentence stands with each speed.
@@ -103,7 +104,12 @@ pub(super) fn part(
         "charts": charts(header, cycle, units, detail),
         "film": film::film_data(&cycle.bearing, &instants, units, detail),
         "surfaces": fields
-            .map(|fields| surfaces::surface_data(&cycle.bearing, fields, units, detail)),
+            .map(|fields| {
+                let ran = cycle.running_in.as_ref();
+                let worn = ran.map(|ran| ran.depth.as_slice());
+                let worn = worn.filter(|worn| worn.len() == fields.on_shell.maximum_pressure.len());
+                surfaces::surface_data(&cycle.bearing, fields, worn, (units, detail))
+            }),
     });
     part
 }
@@ -499,5 +505,6 @@ fn charts(header: &Header, cycle: &CycleResults, units: &Units, detail: &Detail)
     }
     contact::charts(cycle, units, detail, &mut charts);
     compare_models::charts(header, cycle, units, detail, &mut charts);
+    wear::charts(cycle, detail, &mut charts);
     charts
 }

@@ -3,7 +3,7 @@
 use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
-use super::{compare, compare_models, contact, dynamics, heat};
+use super::{compare, compare_models, contact, dynamics, heat, wear};
 use crate::limits::Quantity;
 use crate::oil_holes::oil_holes;
 use crate::regime::FlowRegime;
@@ -50,6 +50,7 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
     ];
     let lost = cycle.mean(|point| point.summary.power_loss());
     tables.extend(contact::cycle_table(cycle, units));
+    tables.extend(wear::table(cycle));
     tables.extend(heat::table(header, lost, units));
     let own = compare::cycle_figures(cycle, units);
     let compared = [

@@ -88,7 +88,8 @@ pub(super) fn in_film(extreme: &Extreme, width: f64) -> String {
         return String::new();
     }
     let (degrees, axial) = place(extreme);
-    let along = if axial == 0.0 {
+    // A peak between two cells that mirror each other lies there to round-off.
+    let along = if axial.abs() < 1e-5 {
         "mid-plane".to_owned()
     } else {
         format!(

@@ -2,6 +2,7 @@
 
 use super::format::{MICROMETRE, Unit, Units, celsius, size};
 use super::page::{Card, Cell, Table, badge, exact, last_iterates};
+use crate::results::machine::SpeedResults;
 use crate::results::{Header, HeatResults};
 
 const DEGREE: &str = "°C";
@@ -111,6 +112,45 @@ pub(super) fn table(header: &Header, power: f64, units: &Units) -> Option<Table>
             .map(|(label, value)| vec![Cell::text(label), Cell::number(value)])
             .collect(),
         ..Table::default()
+    })
+}
+
+/// Temperatures of every bearing of a machine at one speed, where its heat is balanced.
+pub(super) fn machine_table(speed: &SpeedResults, units: &Units) -> Option<Table> {
+    let shown = |kelvin: f64| Cell::number(format!("{} {DEGREE}", celsius(kelvin)));
+    let rows: Vec<Vec<Cell>> = speed
+        .bearings
+        .iter()
+        .filter_map(|bearing| {
+            let heat = bearing.heat.as_ref()?;
+            let lost = bearing.cycle.mean(|point| point.summary.power_loss());
+            Some(vec![
+                Cell::text(bearing.name.clone()),
+                shown(heat.supply_temperature),
+                shown(heat.effective_temperature),
+                shown(heat.outlet_temperature),
+                Cell::number(units.power.show(lost)),
+                Cell::number(units.power.show(heat.conducted)),
+                Cell::number(MICROMETRE.show(2.0 * heat.radial_clearance)),
+            ])
+        })
+        .collect();
+    (!rows.is_empty()).then(|| Table {
+        title: "Temperatures of every bearing",
+        note: "Each bearing at the temperature at which its mean power loss leaves with the oil and by \
+               conduction."
+            .to_owned(),
+        columns: vec![
+            "Bearing",
+            "Supply",
+            "Effective",
+            "Outlet",
+            "Heat of the film",
+            "Conducted",
+            "Warm diametral clearance",
+        ],
+        rows,
+        size: "wide",
     })
 }
 

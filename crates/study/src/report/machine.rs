@@ -200,7 +200,7 @@ fn own_header(header: &Header, bearing: &BearingResults) -> Header {
         error: None,
         grid: header.grid,
         limits,
-        heat: None,
+        heat: bearing.heat.clone(),
         plain: None,
         databases: Vec::new(),
         comparison: None,

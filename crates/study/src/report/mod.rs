@@ -25,6 +25,7 @@ mod spark;
 mod steady;
 mod surfaces;
 mod sweep;
+mod wear;
 
 use crate::regime::Regime;
 use crate::results::{Body, Results};

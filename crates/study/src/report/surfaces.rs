@@ -250,12 +250,13 @@ pub(super) fn figures(hole: &str, has_wear: bool, detail: &Detail) -> Vec<Figure
     figures
 }
 
-/// Both surfaces for the script.
+/// Both surfaces for the script; `worn` is the depth that running-in has worn off the cells of the shell,
+/// m.
 pub(super) fn surface_data(
     bearing: &Bearing,
     fields: &CycleFields,
-    units: &Units,
-    detail: &Detail,
+    worn: Option<&[f64]>,
+    (units, detail): (&Units, &Detail),
 ) -> Value {
     let feeds = |carrier: Carrier| -> Value {
         bearing
@@ -276,13 +277,18 @@ pub(super) fn surface_data(
     });
     json!({
         "half_width": short(bearing.width * 500.0),
-        "shell": map_data(&fields.on_shell, feeds(Carrier::Shell), units, detail),
-        "journal": map_data(&fields.on_journal, feeds(Carrier::Journal), units, detail),
+        "shell": map_data(&fields.on_shell, worn, feeds(Carrier::Shell), (units, detail)),
+        "journal": map_data(&fields.on_journal, None, feeds(Carrier::Journal), (units, detail)),
         "quiet": quiet,
     })
 }
 
-fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units, detail: &Detail) -> Value {
+fn map_data(
+    map: &AccumulatedMap,
+    worn: Option<&[f64]>,
+    feeds: Value,
+    (units, detail): (&Units, &Detail),
+) -> Value {
     let angles: Vec<f64> = map.angles.iter().copied().map(degrees_around).collect();
     let axial: Vec<f64> = map.axial.iter().map(|z| z * 1e3).collect();
     let blocks = Blocks::of(&angles, axial.len(), detail.map_blocks);
@@ -301,6 +307,7 @@ fn map_data(map: &AccumulatedMap, feeds: Value, units: &Units, detail: &Detail) 
         values.map(|values| field(&values, Keep::Largest, factor))
     };
     json!({
+        "worn": worn.map(|depth| field(depth, Keep::Largest, MICROMETRE.factor)),
         "wear": of_wear(wear.and_then(SurfaceWear::depth_per_hour), NANOMETRES),
         "energy": of_wear(wear.map(SurfaceWear::friction_energy), 1.0),
         "pv": of_wear(wear.map(|wear| wear.map.peak_pressure_velocity.clone()), MEGA),

@@ -3,7 +3,7 @@
 //! Of the film at each speed the fields of the worst instant and what each point of the surfaces has
 //! seen are kept; frames over the cycle, at most [`MACHINE_FRAMES`], at the first speed only.
 
-use super::{CycleResults, degrees, rpm};
+use super::{CycleResults, HeatResults, degrees, rpm};
 use crate::limits::{Limit, LimitCheck, Verdict};
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{Performance, Role, TorsionResponse};
@@ -55,6 +55,8 @@ pub struct BearingResults {
     pub determinate_load: Option<Vec<[f64; 2]>>,
     /// The bearing whose orbit this is at another crank angle; `None` for one that was solved itself.
     pub turned_from: Option<TurnedFrom>,
+    /// The temperature that its heat led to, where it was not given.
+    pub heat: Option<HeatResults>,
     /// Orbit, film and what follows.
     pub cycle: CycleResults,
 }

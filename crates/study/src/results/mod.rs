@@ -572,6 +572,12 @@ impl CycleResults {
         self.largest(|point| point.summary.peak_contact_pressure.value)
     }
 
+    /// What contact has done to the shell, where the study asks for wear.
+    #[must_use]
+    pub fn shell_wear(&self) -> Option<&SurfaceWear> {
+        self.fields.as_ref()?.on_shell.wear.as_ref()
+    }
+
     /// Mean of what asperities carry, without regard to its direction, over the mean load.
     #[must_use]
     pub fn contact_load_share(&self) -> f64 {

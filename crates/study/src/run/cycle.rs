@@ -11,7 +11,7 @@ use crate::progress::ProgressEvent;
 use crate::results::{Body, CycleFields, CycleResults, Header, InstantCoefficients, MOST_FRAMES};
 use crate::spool::FieldSpool;
 use sommerfeld_bearing::{
-    CycleHeat, CyclePoint, JournalOrbit, LoadCycle, Observer, OrbitSettings, Progress,
+    CycleHeat, CyclePoint, JournalOrbit, LoadCycle, Observer, OrbitSettings, OrbitStart, Progress,
     instant_coefficients, journal_orbit, warm_orbit,
 };
 use sommerfeld_film::{
@@ -33,14 +33,14 @@ pub(super) fn solve_cycle(
         case.bearing.cavitation_pressure,
         spool,
     );
-    let ran_in = running_in::ran_in(case, duty, settings, progress)?;
+    let (ran_in, start) = running_in::ran_in(case, duty, settings, progress)?;
     let worn = ran_in.as_ref().map(|ran| BearingCase {
         bearing: ran.bearing.clone(),
         ..case.clone()
     });
     let case = worn.as_ref().unwrap_or(case);
     let recorder = recorder.with_wear(case, duty);
-    let mut solved = bearing_cycle(case, duty, settings, recorder, progress)?;
+    let mut solved = bearing_cycle(case, duty, settings, start.as_ref(), recorder, progress)?;
     if let Some(ran) = &ran_in {
         running_in::note(ran, header);
     }
@@ -76,6 +76,17 @@ pub(super) struct SolvedCycle {
     pub turned: Vec<CycleFields>,
     /// Temperatures, where they are a field.
     pub warmth: Option<Warmth>,
+    /// Where a bearing that differs little may begin, after an orbit that converged.
+    pub end: Option<WarmStart>,
+}
+
+/// Where an orbit begins: at the end of one of a bearing that differs little.
+#[derive(Debug, Clone)]
+pub(super) struct WarmStart {
+    /// The journal.
+    pub state: JournalState,
+    /// What the film remembers.
+    pub content: FilmHistory,
 }
 
 /// The results of a bearing whose journal runs no orbit.
@@ -126,11 +137,13 @@ pub(super) fn orbit_settings(duty: &CycleDuty) -> OrbitSettings {
     }
 }
 
-/// The orbit of one bearing over its load cycle, with the fields that `fields` records.
+/// The orbit of one bearing over its load cycle, from a start or from rest, with the fields that
+/// `fields` records.
 pub(super) fn bearing_cycle(
     case: &BearingCase,
     duty: &CycleDuty,
     settings: &FilmSettings,
+    start: Option<&WarmStart>,
     fields: FieldRecorder<'_>,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<SolvedCycle, FilmError> {
@@ -141,34 +154,51 @@ pub(super) fn bearing_cycle(
             stopped: false,
             turned: Vec::new(),
             warmth: None,
+            end: None,
         });
     }
     let mut watch = CycleWatch::new(duty, fields);
     let mut film = film_of(case, settings)?;
     let heat = FieldHeat::of(case);
-    let (mut orbit, warmth) =
-        orbit_of(case, duty, film.as_mut(), heat.as_ref(), &mut |p, f, s| {
-            watch.see(p, f, s, progress)
-        })?;
+    let (mut orbit, warmth) = orbit_of(
+        (case, duty),
+        start,
+        film.as_mut(),
+        heat.as_ref(),
+        &mut |p, f, s| watch.see(p, f, s, progress),
+    )?;
+    let last = orbit
+        .points
+        .last()
+        .filter(|_| orbit.outcome == Outcome::Converged);
+    let end = last.map(|point| WarmStart {
+        state: point.state,
+        content: film.history(),
+    });
     for point in &mut orbit.points {
         point.summary = with_reynolds_number(point.summary, case, &point.state);
     }
     let coefficients = watch.coefficients(case, film.as_mut())?;
     let mut solved = watch.finish(case, &duty.cycle, orbit, coefficients);
     solved.warmth = warmth;
+    solved.end = end;
     Ok(solved)
 }
 
 /// The orbit, in the film's own temperatures where they are a field.
 fn orbit_of(
-    case: &BearingCase,
-    duty: &CycleDuty,
+    (case, duty): (&BearingCase, &CycleDuty),
+    start: Option<&WarmStart>,
     film: &mut dyn FilmForce,
     heat: Option<&FieldHeat>,
     observer: &mut Observer<'_>,
 ) -> Result<(JournalOrbit, Option<Warmth>), FilmError> {
     let (bearing, cycle) = (&case.bearing, &duty.cycle);
-    let (conditions, settings) = (conditions(case), orbit_settings(duty));
+    let (conditions, mut settings) = (conditions(case), orbit_settings(duty));
+    if let Some(start) = start {
+        film.restore(&start.content);
+        settings.start = OrbitStart::At(start.state);
+    }
     let Some(heat) = heat else {
         let orbit = journal_orbit(film, bearing, cycle, &conditions, &settings, observer)?;
         return Ok((orbit, None));
@@ -291,6 +321,7 @@ impl<'a> CycleWatch<'a> {
             },
             turned: fields.collect(),
             warmth: None,
+            end: None,
         }
     }
 

@@ -17,7 +17,7 @@ use sommerfeld_bearing::{
 use sommerfeld_film::{FilmError, FilmHistory, JournalState, Outcome};
 
 /// Change of the temperature below which that of a load cycle has settled, K.
-const CYCLE_TOLERANCE: f64 = 0.05;
+pub(super) const CYCLE_TOLERANCE: f64 = 0.05;
 /// Temperatures in which the balance is looked for, K, as far as the laws of the oil hold.
 const TEMPERATURES: [f64; 2] = [173.15, 773.15];
 /// Smallest share of the given clearance that a warm bearing is calculated with.
@@ -37,22 +37,37 @@ pub(super) struct Warm {
 impl Warm {
     /// Puts the balance into the results, and what went wrong with it.
     pub(super) fn note(self, header: &mut Header) {
-        if self.outcome != Outcome::Converged && header.status == Outcome::Converged {
+        if let Some(failure) = self.failure()
+            && header.status == Outcome::Converged
+        {
             header.status = self.outcome;
-            let celsius = |kelvin: f64| kelvin - 273.15;
-            let [low, high] = self.range.map(celsius);
-            header.messages.insert(
-                0,
-                format!(
-                    "the heat of the film finds no balance between {low:.1} and {high:.1} degC, where \
-                     the laws of the oil hold and the bearing has a clearance: the numbers are those \
-                     at {:.1} degC; give more supply, a larger conductance or a thinner oil",
-                    celsius(self.results.effective_temperature)
-                ),
-            );
+            header.messages.insert(0, failure);
         }
         header.heat = Some(self.results);
     }
+
+    /// What went wrong with the balance.
+    pub(super) fn failure(&self) -> Option<String> {
+        (self.outcome != Outcome::Converged)
+            .then(|| no_balance(self.range, self.results.effective_temperature))
+    }
+
+    /// The bearing at its temperature, and how that was found.
+    pub(super) fn into_parts(self) -> (BearingCase, HeatResults) {
+        (self.case, self.results)
+    }
+}
+
+/// That no temperature within a range (K) balances the heat of a film, calculated at a last one (K).
+pub(super) fn no_balance(range: [f64; 2], last: f64) -> String {
+    let celsius = |kelvin: f64| kelvin - 273.15;
+    let [low, high] = range.map(celsius);
+    format!(
+        "the heat of the film finds no balance between {low:.1} and {high:.1} degC, where the laws of \
+         the oil hold and the bearing has a clearance: the numbers are those at {:.1} degC; give more \
+         supply, a larger conductance or a thinner oil",
+        celsius(last)
+    )
 }
 
 /// Where a balance ended.
@@ -83,48 +98,68 @@ pub(super) fn balanced(
     study: &Study,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<Warm, FilmError> {
+    if let Duty::Cycle(duty) = &case.duty {
+        return balanced_cycle((case, duty), (path, expansion), &study.film, progress);
+    }
     let range = range(case, path.supply_temperature, expansion);
-    let found = match &case.duty {
-        Duty::Cycle(duty) => {
-            let trial = CycleTrial {
-                case,
-                duty,
-                expansion,
-                settings: &study.film,
-                before: None,
-                count: 0,
-            };
-            trial.balance(path, range, progress)?
-        }
-        Duty::State(_) | Duty::Load(_) => {
-            let balanced: Result<_, FilmError> = path.balance(range, |temperature| {
-                let warm = warm_case(case, expansion, temperature);
-                steady_heat(&warm, study, progress).map(|heat| ((), heat))
-            });
-            balanced?.into()
-        }
+    let balanced: Result<_, FilmError> = path.balance(range, |temperature| {
+        let warm = warm_case(case, expansion, temperature);
+        steady_heat(&warm, study, progress).map(|heat| ((), heat))
+    });
+    let found: Balance = balanced?.into();
+    Ok(found.into_warm(case, (path, expansion), range))
+}
+
+/// [`balanced`] of a load cycle.
+pub(super) fn balanced_cycle(
+    (case, duty): (&BearingCase, &CycleDuty),
+    (path, expansion): (&HeatPath, Option<&Expansion>),
+    settings: &FilmSettings,
+    progress: &mut ProgressCallback<'_>,
+) -> Result<Warm, FilmError> {
+    let range = range(case, path.supply_temperature, expansion);
+    let trial = CycleTrial {
+        case,
+        duty,
+        expansion,
+        settings,
+        before: None,
+        count: 0,
     };
-    let warm = warm_case(case, expansion, found.effective);
-    Ok(Warm {
-        results: HeatResults {
-            effective_temperature: found.effective,
-            supply_temperature: path.supply_temperature,
-            outlet_temperature: found.outlet,
-            conducted: found.conducted,
-            radial_clearance: warm.bearing.radial_clearance,
-            given_radial_clearance: case.bearing.radial_clearance,
-            trials: found.trials,
-            field: None,
-        },
-        outcome: found.outcome,
-        case: warm,
-        range,
-    })
+    let found = trial.balance(path, range, progress)?;
+    Ok(found.into_warm(case, (path, expansion), range))
+}
+
+impl Balance {
+    /// The bearing of a case at the temperature of the balance.
+    fn into_warm(
+        self,
+        case: &BearingCase,
+        (path, expansion): (&HeatPath, Option<&Expansion>),
+        range: [f64; 2],
+    ) -> Warm {
+        let warm = warm_case(case, expansion, self.effective);
+        Warm {
+            results: HeatResults {
+                effective_temperature: self.effective,
+                supply_temperature: path.supply_temperature,
+                outlet_temperature: self.outlet,
+                conducted: self.conducted,
+                radial_clearance: warm.bearing.radial_clearance,
+                given_radial_clearance: case.bearing.radial_clearance,
+                trials: self.trials,
+                field: None,
+            },
+            outcome: self.outcome,
+            case: warm,
+            range,
+        }
+    }
 }
 
 /// Temperatures, K, at which the laws of the oil hold and the bearing has a clearance; `within` is one
 /// of them.
-fn range(case: &BearingCase, within: f64, expansion: Option<&Expansion>) -> [f64; 2] {
+pub(super) fn range(case: &BearingCase, within: f64, expansion: Option<&Expansion>) -> [f64; 2] {
     let oil = &case.lubricant;
     let laws = oil.temperature_range().and(oil.heat_temperature_range());
     let ends = [
@@ -157,7 +192,11 @@ fn range(case: &BearingCase, within: f64, expansion: Option<&Expansion>) -> [f64
 
 /// The bearing at a temperature (K): with its warm clearance and, where its position is given, the
 /// same relative eccentricity.
-fn warm_case(case: &BearingCase, expansion: Option<&Expansion>, temperature: f64) -> BearingCase {
+pub(super) fn warm_case(
+    case: &BearingCase,
+    expansion: Option<&Expansion>,
+    temperature: f64,
+) -> BearingCase {
     let cold = case.bearing.radial_clearance;
     let clearance = expansion.map_or(cold, |expansion| {
         expansion.clearance(case.bearing.radius(), cold, temperature)
@@ -223,7 +262,7 @@ const WRONG_DUTY: FilmError = FilmError::Unsupported {
 };
 
 /// J/(m3 K).
-fn volumetric_heat(case: &BearingCase) -> f64 {
+pub(super) fn volumetric_heat(case: &BearingCase) -> f64 {
     let ambient = case.bearing.ambient_pressure.max(0.0);
     case.lubricant
         .volumetric_heat(case.temperature, ambient)

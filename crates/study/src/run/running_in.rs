@@ -1,70 +1,143 @@
-//! The running-in of a shell before its load cycle: an orbit for every step.
+//! The running-in of a shell before its load cycle: an orbit for every step, each from the end of the
+//! one before.
 
 use super::ProgressCallback;
-use super::cycle::{bearing_cycle, orbit_settings};
+use super::cycle::{WarmStart, bearing_cycle, orbit_settings};
 use super::record::FieldRecorder;
 use crate::input::{BearingCase, CycleDuty, FilmSettings};
 use crate::progress::ProgressEvent;
-use crate::results::{Header, magnitude, status_name};
+use crate::results::{Header, status_name};
 use sommerfeld_bearing::{RanIn, RunningInEnd, WornCycle, run_in};
-use sommerfeld_film::{FilmError, Outcome};
+use sommerfeld_film::{Bearing, FilmError, Outcome};
 
-/// Runs the shell of a case in, where the study asks for it. A caller that stops ends it: the cycle
-/// that was not finished counts as not converged.
+/// Runs the shell of a case in, where the study asks for it; with it comes where the orbit of the last
+/// step began. A caller that stops ends it: the cycle that was not finished counts as not converged.
 pub(super) fn ran_in(
     case: &BearingCase,
     duty: &CycleDuty,
     settings: &FilmSettings,
     progress: &mut ProgressCallback<'_>,
-) -> Result<Option<RanIn>, FilmError> {
+) -> Result<(Option<RanIn>, Option<WarmStart>), FilmError> {
     let plan = case.wear.and_then(|wear| wear.running_in(&case.bearing));
     let Some(plan) = plan else {
-        return Ok(None);
+        return Ok((None, None));
     };
-    let points = orbit_settings(duty).points_per_cycle(&duty.cycle);
-    // The coefficients belong to the bearing that has run in.
-    let duty = CycleDuty {
-        coefficients_at: Vec::new(),
-        ..duty.clone()
+    let mut cycles = WornCycles {
+        case,
+        // The coefficients belong to the bearing that has run in.
+        duty: CycleDuty {
+            coefficients_at: Vec::new(),
+            ..duty.clone()
+        },
+        settings,
+        step: 0,
+        start: None,
+        end: None,
     };
-    let mut step = 0;
     let ran = run_in(&case.bearing, &plan, |bearing| {
-        step += 1;
-        let worn = BearingCase {
-            bearing: bearing.clone(),
-            ..case.clone()
-        };
-        let recorder = FieldRecorder::new(points, 0, bearing.cavitation_pressure, None)
-            .with_wear(&worn, &duty);
-        let solved = bearing_cycle(&worn, &duty, settings, recorder, &mut |event| {
-            progress(ProgressEvent {
-                label: format!("running in, step {step}, {}", event.label),
-                ..event
-            })
-        })?;
-        let cycle = solved.results;
-        let load = cycle.mean(|point| magnitude(point.load));
-        let wear = cycle.fields.and_then(|fields| fields.on_shell.wear);
-        match wear {
-            Some(wear) => Ok(WornCycle {
-                contact_share: cycle.orbit.mean(|p| p.summary.contact_load) / load,
-                on_shell: wear.map,
-                outcome: cycle.orbit.outcome,
-            }),
-            None => Ok(WornCycle::not_solved(match cycle.orbit.outcome {
-                Outcome::Converged => Outcome::NotConverged,
-                failed => failed,
-            })),
-        }
+        cycles.next(bearing, progress)
     })?;
-    Ok(Some(ran))
+    Ok((Some(ran), cycles.start))
 }
 
-/// Tells what kept a shell from running in for the time asked for.
+/// The orbits of a bearing that wears.
+struct WornCycles<'a> {
+    case: &'a BearingCase,
+    duty: CycleDuty,
+    settings: &'a FilmSettings,
+    step: usize,
+    /// Where the last orbit began, and where it ended.
+    start: Option<WarmStart>,
+    end: Option<WarmStart>,
+}
+
+impl WornCycles<'_> {
+    /// The orbit of the bearing as it is worn: from where the one before ended and, should it not
+    /// converge from there, from rest.
+    fn next(
+        &mut self,
+        bearing: &Bearing,
+        progress: &mut ProgressCallback<'_>,
+    ) -> Result<WornCycle, FilmError> {
+        self.step += 1;
+        self.start = self.end.take();
+        let (found, stopped) = self.orbit(bearing, progress)?;
+        if found.outcome == Outcome::Converged || stopped || self.start.is_none() {
+            return Ok(found);
+        }
+        self.start = None;
+        Ok(self.orbit(bearing, progress)?.0)
+    }
+
+    /// The orbit from the start, and whether the caller stopped it.
+    fn orbit(
+        &mut self,
+        bearing: &Bearing,
+        progress: &mut ProgressCallback<'_>,
+    ) -> Result<(WornCycle, bool), FilmError> {
+        let worn = BearingCase {
+            bearing: bearing.clone(),
+            ..self.case.clone()
+        };
+        let points = orbit_settings(&self.duty).points_per_cycle(&self.duty.cycle);
+        let recorder = FieldRecorder::new(points, 0, bearing.cavitation_pressure, None)
+            .with_wear(&worn, &self.duty);
+        let step = self.step;
+        let start = self.start.as_ref();
+        let solved = bearing_cycle(
+            &worn,
+            &self.duty,
+            self.settings,
+            start,
+            recorder,
+            &mut |event| {
+                progress(ProgressEvent {
+                    label: format!("running in, step {step}, {}", event.label),
+                    ..event
+                })
+            },
+        )?;
+        self.end = solved.end;
+        let cycle = solved.results;
+        let (share, thinnest) = (cycle.contact_load_share(), cycle.minimum_film_thickness());
+        let thinnest = thinnest.map_or(f64::NAN, |p| p.summary.minimum_film_thickness.value);
+        let outcome = cycle.orbit.outcome;
+        let wear = cycle.fields.and_then(|fields| fields.on_shell.wear);
+        let found = match wear {
+            Some(wear) => WornCycle {
+                contact_share: share,
+                minimum_film_thickness: thinnest,
+                on_shell: wear.map,
+                outcome,
+            },
+            None => WornCycle::not_solved(match outcome {
+                Outcome::Converged => Outcome::NotConverged,
+                failed => failed,
+            }),
+        };
+        Ok((found, solved.stopped))
+    }
+}
+
+/// Tells how the running-in of a shell ended, and what kept it from the time asked for.
 pub(super) fn note(ran: &RanIn, header: &mut Header) {
     let after = ran.time / 3600.0;
     let (status, why) = match ran.end {
-        RunningInEnd::Settled | RunningInEnd::TimeOver => return,
+        RunningInEnd::TimeOver => return,
+        RunningInEnd::Settled | RunningInEnd::Faded => {
+            let message = if ran.end == RunningInEnd::Settled {
+                format!(
+                    "the shell has run in after {after:.3} h: the map of its wear no longer changes"
+                )
+            } else {
+                format!(
+                    "the shell has run in after {after:.3} h: its wear has faded to settled_below of the \
+                     first; settled_below = 0 runs on"
+                )
+            };
+            header.messages.push(message);
+            return;
+        }
         RunningInEnd::StepLimit => (
             Outcome::NotConverged,
             "its steps were used up; give more steps, or a larger step_depth".to_owned(),

@@ -119,6 +119,7 @@ fn one(role: Role, index: usize, rpm: f64, with_fields: bool) -> BearingResults 
             feed_pressures: Vec::new(),
         },
         turned_from: None,
+        heat: None,
         determinate_load: (role == Role::Main).then_some(determinate),
         cycle: CycleResults {
             bearing: own,

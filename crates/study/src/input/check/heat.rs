@@ -42,6 +42,17 @@ impl Checker<'_> {
                     .push(error.hinting("give the clearance of the warm bearing"));
                 return None;
             }
+            Some(Value::Table) if self.mode.is_machine() && self.entry(RING).is_some() => {
+                let place = self.section_error(RING, "");
+                let error = not_built(
+                    place,
+                    "heat.expansion.shell of a machine with several bearings",
+                );
+                self.errors.push(error.hinting(
+                    "give each bearing the clearance of its assembled shell, and the expansions of journal and housing",
+                ));
+                return None;
+            }
             Some(Value::Table) => Some(self.expansion(bearing)?),
             Some(_) => return None,
         };
@@ -91,6 +102,7 @@ impl Checker<'_> {
         let is_built = match self.mode {
             Mode::Film => model == "balance",
             Mode::Equilibrium | Mode::Coefficients | Mode::LoadCycle => true,
+            mode if mode.is_machine() => model == "balance",
             _ => false,
         };
         if is_built {
@@ -102,14 +114,13 @@ impl Checker<'_> {
             self.mode.name()
         );
         let error = not_built(place, &what);
-        self.errors
-            .push(if model == "field" && !self.mode.is_machine() {
-                error.allowing("given, balance")
-            } else {
-                error.allowing("given").hinting(
-                "the loads-<name>.csv of a bearing can be run as a load-cycle study with a balance",
+        self.errors.push(if self.mode.is_machine() {
+            error.allowing("given, balance").hinting(
+                "the loads-<name>.csv of a bearing can be run as a load-cycle study with a field",
             )
-            });
+        } else {
+            error.allowing("given, balance")
+        });
         None
     }
 
@@ -192,6 +203,18 @@ impl Checker<'_> {
             housing_excess,
             shell,
         })
+    }
+
+    /// Refuses bearings of a machine that have no clearance at the temperature of their supply.
+    pub(super) fn check_warm_clearances<'b>(
+        &mut self,
+        heat: &HeatPlan,
+        mut bearings: impl Iterator<Item = &'b Bearing>,
+    ) -> Option<()> {
+        let (Some(path), expansion) = (heat.path(), heat.expansion()) else {
+            return Some(());
+        };
+        bearings.try_for_each(|bearing| self.check_warm_clearance(Some(bearing), path, expansion))
     }
 
     /// A bearing without clearance at the temperature of its supply does not run.

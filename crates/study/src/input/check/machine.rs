@@ -29,7 +29,10 @@ impl Checker<'_> {
         let orbit = self.orbit();
         let found = match self.mode {
             Mode::Engine => {
-                let oil = lubricant.as_ref().zip(temperature);
+                // The oil of the drillings is as it is supplied.
+                let supply = heat.as_ref().and_then(|heat| heat.path());
+                let supply = supply.map(|path| path.supply_temperature).or(temperature);
+                let oil = lubricant.as_ref().zip(supply);
                 let density = oil.map(|(oil, temperature)| oil.density(temperature, 0.0).value);
                 self.engine(&speeds, density)
             }
@@ -37,12 +40,14 @@ impl Checker<'_> {
         };
         let (machine, bearings) = found?;
         let wear = self.wear(bearings.iter().map(|b| &b.bearing));
+        let heat = heat?;
+        self.check_warm_clearances(&heat, bearings.iter().map(|b| &b.bearing))?;
         Some(Subject::Machine(Box::new(MachinePlan {
             machine,
             bearings,
             lubricant: lubricant?,
             temperature: temperature?,
-            heat: heat?,
+            heat,
             wear: wear?,
             speeds,
             orbit: orbit?,

@@ -3,6 +3,7 @@
 use super::Checker;
 use crate::input::values::Value;
 use crate::input::wear::{RunningInPlan, WearPlan};
+use sommerfeld_bearing::WornRoughness;
 use sommerfeld_film::Bearing;
 
 const WEAR: &str = "wear";
@@ -47,6 +48,10 @@ impl Checker<'_> {
             steps: usize::try_from(steps).ok()?,
             step_depth: number("step_depth")?,
             settled_below: number("settled_below")?,
+            roughness: match self.text(&format!("{RUNNING_IN}.roughness"))?.as_str() {
+                "kept" => WornRoughness::Kept,
+                _ => WornRoughness::Truncated,
+            },
         })
     }
 }

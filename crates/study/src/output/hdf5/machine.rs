@@ -82,6 +82,17 @@ impl<W: Write + Seek> Layout<W> {
             self.file.set(group, "computed_as", first.as_str());
         }
         self.bearing(group, &bearing.cycle.bearing)?;
+        if let Some(heat) = &bearing.heat {
+            let inner = self.file.group(group, "heat")?;
+            for (name, unit, value) in [
+                ("effective_temperature", "K", heat.effective_temperature),
+                ("supply_temperature", "K", heat.supply_temperature),
+                ("outlet_temperature", "K", heat.outlet_temperature),
+                ("conducted_heat", "W", heat.conducted),
+            ] {
+                self.add(inner, name, unit, &[], &[value])?;
+            }
+        }
         let load = self.file.group(group, "load")?;
         self.columns(load, load_columns(&bearing.load))?;
         let cycle = &bearing.cycle;

@@ -45,6 +45,7 @@ globalThis.sommerfeld.parts.push((report) => {
     amplitude: { scale: scales.inferno, name: "pressure amplitude", unit: units.pressure, zero: true },
     share: { scale: "Cividis", name: "share with full film", unit: "", whole: true },
     wear: { scale: scales.inferno, name: "wear depth", unit: "nm/h", zero: true },
+    worn: { scale: scales.inferno, name: "worn depth", unit: "µm", zero: true },
     energy: { scale: scales.inferno, name: "friction energy", unit: "J/m²", zero: true },
     pv: { scale: "Viridis", name: "pressure times speed", unit: "MW/m²", zero: true },
   };

@@ -9,6 +9,7 @@ use crate::report::chart::{Mark, Series};
 use crate::report::cycle::side_flow;
 use crate::report::format::{MICROMETRE, Unit, Units, angle, plain_number};
 use crate::report::page::{Card, Cell, Figure, Section, Table, badge, checks, exact, headline};
+use crate::report::{heat, wear};
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{Header, degrees, place, rpm};
 use serde_json::{Value, json};
@@ -171,6 +172,8 @@ fn mean_side_flow(bearing: &BearingResults) -> f64 {
 
 fn at_speed(header: &Header, speed: &SpeedResults, units: &Units, own: &Units) -> AtSpeed {
     let mut tables = vec![bearing_table(header, speed, units)];
+    tables.extend(wear::machine_table(speed));
+    tables.extend(heat::machine_table(speed, units));
     tables.extend(engine::table(speed, own));
     tables.extend(torsion::tables(speed));
     AtSpeed {

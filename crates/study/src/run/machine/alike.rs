@@ -7,7 +7,7 @@
 //! the other stood. Nothing else is asked for: where torsion, uneven firing, another bank or another
 //! crank step makes a difference, the rows differ and every bearing is solved by itself.
 
-use super::units::{BearingFound, UnitFound, bearing_case, recorder, refused, solve_alone};
+use super::units::{BearingFound, UnitFound, WarmBearing, recorder, refused, solve_alone};
 use super::{ProgressCallback, RunError, Work};
 use crate::results::CycleFields;
 use crate::run::cycle::bearing_cycle;
@@ -210,12 +210,12 @@ pub(super) fn solve_alike(
             .map_err(|error| refused(work, speed, other.bearing, error))
     };
     let turns: Vec<Turn> = others.iter().map(turn).collect::<Result<_, _>>()?;
-    let (case, duty) = bearing_case(work, speed, first, cycles[first].clone());
-    let recorder = recorder(&case, &duty, speed).with_turns(&turns);
-    let solved = bearing_cycle(&case, &duty, work.film, recorder, progress)
+    let warm = WarmBearing::of(work, speed, first, cycles[first].clone(), progress)?;
+    let (case, duty) = (&warm.case, &warm.duty);
+    let recorder = recorder(case, duty, speed).with_turns(&turns);
+    let solved = bearing_cycle(case, duty, work.film, None, recorder, progress)
         .map_err(|error| refused(work, speed, first, error))?;
-    let found = BearingFound::of(first, duty.cycle, solved.results);
-    let mut all = vec![found];
+    let mut all = vec![warm.found(first, solved.results)];
     if solved.stopped {
         return Ok(all);
     }
@@ -258,6 +258,7 @@ fn turned(
         feed_flows: turn.each(&first.feed_flows),
         fields,
         turned_from: Some((first.bearing, turn.later_by())),
+        heat: first.heat.clone(),
         notes: Vec::new(),
     }
 }

@@ -86,13 +86,23 @@ fn bearing_results(
     cycle: LoadCycle,
     found: Option<BearingFound>,
 ) -> BearingResults {
-    let (load, determinate_load, cycle) = match found {
-        None => (cycle, None, without_orbit(&bearing, Outcome::NotConverged)),
+    let (load, determinate_load, heat, cycle) = match found {
+        None => {
+            let none = without_orbit(&bearing, Outcome::NotConverged);
+            (cycle, None, None, none)
+        }
         Some(found) => (
             found.load,
             found.determinate_load,
+            found.heat.clone(),
             CycleResults {
-                bearing,
+                bearing: match &found.heat {
+                    None => bearing,
+                    Some(heat) => Bearing {
+                        radial_clearance: heat.radial_clearance,
+                        ..bearing
+                    },
+                },
                 orbit: found.orbit,
                 feed_flows: found.feed_flows,
                 fields: found.fields,
@@ -108,6 +118,7 @@ fn bearing_results(
         load,
         determinate_load,
         turned_from: None,
+        heat,
         cycle,
     }
 }

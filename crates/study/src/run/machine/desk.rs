@@ -240,6 +240,7 @@ mod tests {
             feed_flows: Vec::new(),
             fields: None,
             turned_from: Some((1, 0.1)),
+            heat: None,
             notes: vec!["µ".to_owned()],
         }];
         let read = unpacked(&packed(&found).unwrap()).unwrap();

@@ -4,12 +4,11 @@
 //! ([`PinBalance`]). The films change with the speed: orbits and balance take turns until the torques
 //! cancel.
 
-use super::units::{BearingFound, UnitFound, solve_alone};
+use super::units::{UnitFound, solve_alone};
 use super::{ProgressCallback, RunError, Work};
 use crate::progress::ProgressEvent;
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{PinBalance, PinSpeed};
-use sommerfeld_film::Outcome;
 
 /// Turns of orbits and balance at most.
 const LARGEST_PASSES: usize = 8;
@@ -51,19 +50,11 @@ pub(super) fn solve_pin(
                 100.0 * balance.residual
             );
             in_rod.notes.push(note);
-            for found in [&mut in_rod, &mut in_boss] {
-                mark(found);
-            }
+            in_rod.mark_not_converged();
+            in_boss.mark_not_converged();
             return Ok(vec![in_rod, in_boss]);
         }
         set_pin_speeds(&mut cycles, &PinSpeed::Tables(vec![balance.speeds]));
-    }
-}
-
-/// An orbit under a speed that is not known is none that converged.
-fn mark(found: &mut BearingFound) {
-    if found.orbit.outcome == Outcome::Converged {
-        found.orbit.outcome = Outcome::NotConverged;
     }
 }
 

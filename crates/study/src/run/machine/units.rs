@@ -10,16 +10,17 @@ use super::pin::solve_pin;
 use super::speeds::SpeedLoads;
 use super::{ProgressCallback, RunError, Work};
 use crate::input::{
-    BearingCase, CycleDuty, Duty, Machine, MachineBearing, MachinePlan, StoredInstants,
+    BearingCase, CycleDuty, Duty, HeatPlan, Machine, MachineBearing, MachinePlan, StoredInstants,
 };
 use crate::results::machine::MACHINE_FRAMES;
-use crate::results::{CycleFields, CycleResults};
+use crate::results::{CycleFields, CycleResults, HeatResults};
 use crate::run::cycle::{bearing_cycle, orbit_settings};
+use crate::run::heat::balanced_cycle;
 use crate::run::record::FieldRecorder;
 use serde::{Deserialize, Serialize};
 use sommerfeld_bearing::{JournalOrbit, LoadCycle};
 use sommerfeld_engine::{Mains, PinFit, Role};
-use sommerfeld_film::{FeedFlow, FilmError};
+use sommerfeld_film::{FeedFlow, FilmError, Outcome};
 
 /// A unit of work.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +71,9 @@ pub(super) struct BearingFound {
     /// The bearing of the plan whose orbit this is, so much later, rad; `None` for one that was solved
     /// itself.
     pub turned_from: Option<(usize, f64)>,
+    /// The temperature that its heat led to, where it was not given.
+    #[serde(default)]
+    pub heat: Option<HeatResults>,
     /// What the reader must know.
     pub notes: Vec<String>,
 }
@@ -150,11 +154,68 @@ pub(super) fn solve_alone(
     cycle: LoadCycle,
     progress: &mut ProgressCallback<'_>,
 ) -> Result<BearingFound, RunError> {
-    let (case, duty) = bearing_case(work, speed, bearing, cycle);
-    let recorder = recorder(&case, &duty, speed);
-    let solved = bearing_cycle(&case, &duty, work.film, recorder, progress)
+    let warm = WarmBearing::of(work, speed, bearing, cycle, progress)?;
+    let (case, duty) = (&warm.case, &warm.duty);
+    let recorder = recorder(case, duty, speed);
+    let solved = bearing_cycle(case, duty, work.film, None, recorder, progress)
         .map_err(|error| refused(work, speed, bearing, error))?;
-    Ok(BearingFound::of(bearing, duty.cycle, solved.results))
+    Ok(warm.found(bearing, solved.results))
+}
+
+/// A bearing of the machine at the temperature that its heat leads to, or at the one that is given.
+pub(super) struct WarmBearing {
+    /// With its warm clearance.
+    pub case: BearingCase,
+    /// What it has to do.
+    pub duty: CycleDuty,
+    heat: Option<HeatResults>,
+    notes: Vec<String>,
+}
+
+impl WarmBearing {
+    /// Of a bearing under a load cycle.
+    pub(super) fn of(
+        work: &Work<'_>,
+        speed: usize,
+        bearing: usize,
+        cycle: LoadCycle,
+        progress: &mut ProgressCallback<'_>,
+    ) -> Result<Self, RunError> {
+        let (case, duty) = bearing_case(work, speed, bearing, cycle);
+        let HeatPlan::Balance { path, expansion } = case.heat else {
+            return Ok(Self {
+                case,
+                duty,
+                heat: None,
+                notes: Vec::new(),
+            });
+        };
+        let way = (&path, expansion.as_ref());
+        let warm = balanced_cycle((&case, &duty), way, work.film, progress)
+            .map_err(|error| refused(work, speed, bearing, error))?;
+        let place = work.place(speed, bearing);
+        let notes = warm.failure().map(|failure| format!("{place}: {failure}"));
+        let (case, heat) = warm.into_parts();
+        Ok(Self {
+            case,
+            duty,
+            heat: Some(heat),
+            notes: notes.into_iter().collect(),
+        })
+    }
+
+    /// With what its orbit left.
+    pub(super) fn found(self, bearing: usize, results: CycleResults) -> BearingFound {
+        let mut found = BearingFound {
+            heat: self.heat,
+            ..BearingFound::of(bearing, self.duty.cycle, results)
+        };
+        if !self.notes.is_empty() {
+            found.mark_not_converged();
+            found.notes = self.notes;
+        }
+        found
+    }
 }
 
 impl BearingFound {
@@ -168,7 +229,15 @@ impl BearingFound {
             feed_flows: results.feed_flows,
             fields: results.fields,
             turned_from: None,
+            heat: None,
             notes: Vec::new(),
+        }
+    }
+
+    /// An orbit in a film that is not known, or under a speed that is not, is none that converged.
+    pub(super) fn mark_not_converged(&mut self) {
+        if self.orbit.outcome == Outcome::Converged {
+            self.orbit.outcome = Outcome::NotConverged;
         }
     }
 }
