@@ -121,9 +121,10 @@ fn difference(found: f64, own: f64) -> String {
         return "n/a".to_owned();
     }
     let digits = match percent.abs() {
-        0.1.. => 1,
+        1.0.. => 1,
         0.01.. => 2,
-        _ => 3,
+        0.0005.. => 3,
+        _ => return "0.000 %".to_owned(),
     };
     format!("{percent:+.digits$} %").replace('-', "−")
 }
@@ -287,7 +288,7 @@ mod tests {
     fn small_differences_keep_their_digits() {
         assert_eq!(difference(1.5, 2.0), "−25.0 %");
         assert_eq!(difference(2.001, 2.0), "+0.05 %");
-        assert_eq!(difference(2.0, 2.0), "+0.000 %");
+        assert_eq!(difference(2.0 - 1e-9, 2.0), "0.000 %");
         assert_eq!(difference(1.0, 0.0), "n/a");
     }
 }
