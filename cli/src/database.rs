@@ -52,7 +52,12 @@ pub struct LookupArguments {
     /// The database
     file: PathBuf,
     /// Relative eccentricity, 0 to below 1
-    #[arg(long, value_name = "E", required_unless_present = "states")]
+    #[arg(
+        long,
+        value_name = "E",
+        required_unless_present = "states",
+        allow_negative_numbers = true
+    )]
     eccentricity: Option<f64>,
     /// Angle of the motion from the line of centres, degrees
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, conflicts_with = "diameter", required_unless_present_any = ["states", "diameter"])]

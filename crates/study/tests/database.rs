@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use serde_json::Value;
+use sommerfeld_database::table::Axes;
 use sommerfeld_database::{Recipe, Table};
 use sommerfeld_study::database_files;
 use sommerfeld_study::film_tables::{FilmTable, StoredFilms};
@@ -214,8 +215,23 @@ fn what_a_database_does_not_hold_is_refused_with_what_it_does() {
 #[test]
 fn of_several_files_the_one_that_holds_the_bearing_is_taken() {
     let directory = tempfile::tempdir().unwrap();
-    build(directory.path(), &BUILD.replace("0.4", "0.6"), 2);
-    fs::create_dir(directory.path().join("other")).unwrap();
+    // The same films under the name of another width: it is the name that decides.
+    let stored = StoredFilms::load("", &films().join("films/table.h5")).unwrap();
+    let FilmTable::Combined(table) = &stored.table else {
+        panic!("another table");
+    };
+    let wide = Recipe {
+        width_ratios: [0.6; 2],
+        ..*table.recipe()
+    };
+    let axes = Axes::new(&wide, table.axes().counts()).unwrap();
+    let table = Table::new(wide, axes, table.nodes().to_vec(), *table.errors()).unwrap();
+    for place in ["films", "other"] {
+        fs::create_dir(directory.path().join(place)).unwrap();
+    }
+    table
+        .save(&directory.path().join("films/table.h5"))
+        .unwrap();
     fs::copy(
         films().join("films/table.h5"),
         directory.path().join("other/table.h5"),
