@@ -8,8 +8,8 @@ use std::path::PathBuf;
 #[command(name = "sommerfeld", version, arg_required_else_help = true)]
 #[command(
     after_help = "Exit status: 0 done; 1 something did not converge; 2 the input was refused; \
-                        3 the machine failed (disk, permissions); 130 interrupted, a sweep goes on with \
-                        the same command."
+                        3 the machine failed (disk, permissions); 130 interrupted, a sweep, machine or \
+                        database goes on with the same command."
 )]
 pub struct Arguments {
     /// What to do.
@@ -32,7 +32,7 @@ pub enum Command {
         /// Which one: big-end, main-bearing, coefficients, lemon-bearing, clearance-sweep,
         /// one-axis-cycle, film, dimensionless, engine-i1, engine-i3, engine-i4,
         /// engine-i5, engine-i6, engine-v6, engine-v8, engine-boxer,
-        /// balancer-shaft
+        /// balancer-shaft, database
         template: String,
         /// Where to write it; made if it is not there
         directory: PathBuf,
@@ -42,6 +42,9 @@ pub enum Command {
         /// Such as bearing.diameter
         key: Option<String>,
     },
+    /// Build, show, look up or check a database of films
+    #[command(subcommand)]
+    Database(crate::database::DatabaseCommand),
     /// Print the JSON schema of the study file
     Schema,
 }

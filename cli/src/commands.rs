@@ -1,9 +1,10 @@
 //! The commands.
 
 use crate::exit::Exit;
+use sommerfeld_study::film_tables::closure_name;
 use sommerfeld_study::input::{
-    self, BearingCase, Duty, Machine, MachinePlan, MessageKind, Study, Subject, SweepPlan,
-    render_all,
+    self, BearingCase, DatabasePlan, Duty, Machine, MachinePlan, MessageKind, Study, Subject,
+    SweepPlan, render_all,
 };
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::{self, TEMPLATES};
@@ -63,8 +64,20 @@ fn subject(subject: &Subject) -> String {
         ),
         Subject::Bearing(case) => bearing(case),
         Subject::Machine(plan) => machine(plan),
+        Subject::Database(plan) => database(plan),
         Subject::Sweep(plan) => sweep(plan),
     }
+}
+
+/// What is to be built.
+fn database(plan: &DatabasePlan) -> String {
+    let [narrow, wide] = plan.width_ratios();
+    format!(
+        "  database  {}, closure {}, width/diameter {narrow:.6} to {wide:.6}, target {:e}\n",
+        plan.scheme().name(),
+        closure_name(plan.closure()),
+        plan.target()
+    )
 }
 
 /// What it is, its bearings by kind, its speeds.

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod commands;
+mod database;
 mod exit;
 mod progress;
 mod run;
@@ -37,6 +38,7 @@ fn main() -> ExitCode {
             directory,
         } => commands::new(template, directory),
         Command::Explain { key } => commands::explain(key.as_deref()),
+        Command::Database(command) => database::database(command),
         Command::Schema => commands::schema(),
     };
     exit.into()

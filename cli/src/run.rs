@@ -5,6 +5,7 @@ use crate::exit::Exit;
 use crate::progress::{Progress, stop_flag};
 use clap::Args;
 use sommerfeld_study::cases::CaseStatus;
+use sommerfeld_study::input::{Analysis, Study};
 use sommerfeld_study::output::OutputError;
 use sommerfeld_study::results::{Body, Results, status_name};
 use sommerfeld_study::{Outcome, RunError, RunOptions, RunSummary};
@@ -29,10 +30,31 @@ pub struct RunArguments {
 
 /// Checks the study, runs it and tells how it ended.
 pub fn run(arguments: &RunArguments) -> Exit {
+    match commands::read(&arguments.file) {
+        Ok(study) => run_study(&study, arguments),
+        Err(exit) => exit,
+    }
+}
+
+/// Builds the database that a study describes.
+pub fn build_database(arguments: &RunArguments) -> Exit {
     let study = match commands::read(&arguments.file) {
         Ok(study) => study,
         Err(exit) => return exit,
     };
+    if study.analysis != Analysis::Database {
+        eprintln!(
+            "error: {}: the analysis {} builds no database\n  = hint: `sommerfeld new database DIR` writes \
+             a study that does",
+            arguments.file.display(),
+            study.analysis.name()
+        );
+        return Exit::Refused;
+    }
+    run_study(&study, arguments)
+}
+
+fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
     let out = arguments
         .out
         .clone()
@@ -44,7 +66,7 @@ pub fn run(arguments: &RunArguments) -> Exit {
         threads: arguments.threads.map(usize::from),
     };
     let ended =
-        sommerfeld_study::run_with(&study, &out, options, &mut |event| progress.show(&event));
+        sommerfeld_study::run_with(study, &out, options, &mut |event| progress.show(&event));
     progress.finish();
     match ended {
         Ok(summary) => {
@@ -64,7 +86,8 @@ pub fn run(arguments: &RunArguments) -> Exit {
             error @ (RunError::Film(_)
             | RunError::Bearing { .. }
             | RunError::Machine { .. }
-            | RunError::NoErrorBars { .. }),
+            | RunError::NoErrorBars { .. }
+            | RunError::Database(_)),
         ) => {
             eprintln!("error: {}: {error}", arguments.file.display());
             Exit::Refused
@@ -84,11 +107,15 @@ pub fn run(arguments: &RunArguments) -> Exit {
 /// Whether a run that was stopped has something left to do.
 fn is_unfinished(results: &Results, verify: bool) -> bool {
     match &results.body {
+        Body::Database(database) => database.built.is_none(),
         Body::Sweep(sweep) => sweep.count(CaseStatus::NotRun) > 0,
         Body::Machine(machine) => machine.missing() > 0,
         _ => {
             let header = &results.header;
-            header.status != Outcome::Converged || (verify && header.error.is_none())
+            let comparison = header.comparison.as_ref();
+            header.status != Outcome::Converged
+                || (verify && header.error.is_none())
+                || comparison.is_some_and(|comparison| comparison.is_unfinished())
         }
     }
 }

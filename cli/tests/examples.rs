@@ -1,11 +1,13 @@
 //! Every example, run as a user runs it: exit status, summary, tables, report, and that each answers
 //! the question of its page.
-#![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout, missing_docs)]
 
 mod common;
 
 use common::{Ran, Table, number, root, run};
+use serde_json::Value;
 use std::fs;
+use std::path::Path;
 
 /// Keys of every summary.
 const ALWAYS: [&str; 9] = [
@@ -405,6 +407,116 @@ fn stribeck_curve_of_a_bearing() {
     example("09-stribeck/bearing.toml");
 }
 
+/// Runs a study of a copy of the example of databases, as a user would who has built them.
+fn beside_databases(place: &Path, study: &str) -> Value {
+    let output = common::sommerfeld()
+        .args(["run", study])
+        .current_dir(place)
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(0), "{study}: {told}");
+    let results = place.join(study.trim_end_matches(".toml"));
+    let summary = common::summary(&results);
+    for key in ALWAYS {
+        assert!(!summary[key].is_null(), "{study}: {key}");
+    }
+    check_report(
+        study,
+        &fs::read_to_string(results.join("report.html")).unwrap(),
+    );
+    summary
+}
+
+/// The example of databases in a place of its own, beside the loads that it names.
+fn copied_databases() -> tempfile::TempDir {
+    let place = tempfile::tempdir().unwrap();
+    for name in ["11-database", "02-big-end-diesel"] {
+        let to = place.path().join(name);
+        fs::create_dir(&to).unwrap();
+        for entry in fs::read_dir(root().join("examples").join(name)).unwrap() {
+            let file = entry.unwrap();
+            if file.path().is_file() {
+                fs::copy(file.path(), to.join(file.file_name())).unwrap();
+            }
+        }
+    }
+    place
+}
+
+/// Combined tables within 1 % of the field; the error of the superposition is printed, and large.
+#[test]
+fn film_models_of_a_plain_big_end() {
+    let place = copied_databases();
+    let place = place.path().join("11-database");
+    let combined = beside_databases(&place, "combined.toml");
+    assert!(number(&combined, "maximum_relative_error") <= 1e-3);
+    beside_databases(&place, "superposition.toml");
+    let summary = beside_databases(&place, "study.toml");
+    let comparison = &summary["comparison"];
+    let off = |model: &str, key: &str| {
+        let found = &comparison[model];
+        assert_eq!(found["status"], "converged", "{model}: {found}");
+        found["difference_percent"][key].as_f64().unwrap()
+    };
+    let film = "minimum_film_thickness_m";
+    for model in ["field", "superposition", "online", "short-bearing"] {
+        let [thinnest, peak, power] =
+            [film, "peak_film_pressure_pa", "mean_power_loss_w"].map(|key| off(model, key));
+        println!(
+            "{model}: minimum film {thinnest:+.3} %, peak pressure {peak:+.3} %, power {power:+.3} % of \
+             the database, {:.3} s",
+            number(&comparison[model], "wall_time_s")
+        );
+    }
+    println!("database: {:.3} s", number(comparison, "own_wall_time_s"));
+    assert!(off("field", film).abs() < 1.0, "{}", off("field", film));
+    assert!(
+        off("superposition", film) > 5.0,
+        "{}",
+        off("superposition", film)
+    );
+    // The page shows what the run found.
+    for model in ["field", "superposition", "online", "short-bearing"] {
+        let page = machines::words("11-database", model);
+        let shown: f64 = page[1]
+            .trim_end_matches(" %")
+            .replace('−', "-")
+            .parse()
+            .unwrap();
+        let found = off(model, film);
+        assert!(
+            (shown - found).abs() < 0.1,
+            "{model}: {found}, the page says {shown}"
+        );
+    }
+}
+
+/// The case of Flores on a database of its bearing.
+#[test]
+fn one_axis_cycle_on_a_database() {
+    let place = tempfile::tempdir().unwrap();
+    let from = root().join("examples/03-one-axis-cycle");
+    fs::copy(from.join("loads.csv"), place.path().join("loads.csv")).unwrap();
+    let field = fs::read_to_string(from.join("study.toml")).unwrap();
+    let looked_up = field.replace(
+        "model = \"field\"",
+        "model = \"database\"\ndatabase = \"films/table.h5\"\ncompare = [\"field\"]",
+    );
+    fs::write(place.path().join("study.toml"), looked_up).unwrap();
+    fs::write(
+        place.path().join("films.toml"),
+        "schema = 1\nanalysis = \"database\"\n[database]\n[bearing]\ndiameter = \"63.5 mm\"\n\
+         width = \"25.4 mm\"\n[film]\ncavitation = \"reynolds\"\n",
+    )
+    .unwrap();
+    beside_databases(place.path(), "films.toml");
+    let summary = beside_databases(place.path(), "study.toml");
+    let off = &summary["comparison"]["field"]["difference_percent"]["minimum_film_thickness_m"];
+    println!("Flores: minimum film of the field {off} % of that of the database");
+    assert!(off.as_f64().unwrap().abs() < 1.0, "{off}");
+}
+
 #[test]
 fn every_example_is_run_here() {
     let mut studies: Vec<String> = Vec::new();
@@ -416,8 +528,7 @@ fn every_example_is_run_here() {
         for file in fs::read_dir(&directory).unwrap() {
             let path = file.unwrap().path();
             if path.extension().is_some_and(|kind| kind == "toml") {
-                let name =
-                    |part: &std::path::Path| part.file_name().unwrap().to_str().unwrap().to_owned();
+                let name = |part: &Path| part.file_name().unwrap().to_str().unwrap().to_owned();
                 studies.push(format!("{}/{}", name(&directory), name(&path)));
             }
         }
@@ -440,6 +551,9 @@ fn every_example_is_run_here() {
             "09-stribeck/bearing.toml",
             "09-stribeck/study.toml",
             "10-running-in/study.toml",
+            "11-database/combined.toml",
+            "11-database/study.toml",
+            "11-database/superposition.toml",
         ]
     );
 }

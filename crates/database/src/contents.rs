@@ -145,6 +145,29 @@ impl Contents {
         Ok(read)
     }
 
+    /// The scheme of a file, of which nothing else is checked.
+    ///
+    /// # Errors
+    /// As [`Contents::read`].
+    pub fn scheme(path: &Path) -> Result<String, DatabaseError> {
+        let bytes = std::fs::read(path).map_err(|error| DatabaseError::File {
+            path: path.to_owned(),
+            reason: format!("cannot be read: {error}"),
+        })?;
+        let wrong = |reason: String| DatabaseError::Contents {
+            path: path.to_owned(),
+            reason,
+        };
+        let read = Self::decoded(bytes)
+            .map_err(|error| wrong(format!("not a whole HDF5 file ({error})")))?;
+        if read.attributes.get("format") != Some(&Value::Text(FORMAT.to_owned())) {
+            return Err(wrong(
+                "its attribute format is not that of a database".to_owned(),
+            ));
+        }
+        read.text(path, "scheme").map(str::to_owned)
+    }
+
     fn encoded(&self) -> Result<Vec<u8>, hdf5_pure::Error> {
         let mut builder = FileBuilder::new();
         for (name, value) in &self.attributes {
@@ -268,6 +291,20 @@ impl Contents {
             other => Err(DatabaseError::Contents {
                 path: path.to_owned(),
                 reason: format!("its attribute {name} is {other:?} instead of a number"),
+            }),
+        }
+    }
+
+    /// An attribute that is a whole number.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Contents`] where it is missing or something else.
+    pub fn integer(&self, path: &Path, name: &str) -> Result<i64, DatabaseError> {
+        match self.attributes.get(name) {
+            Some(Value::Integer(number)) => Ok(*number),
+            other => Err(DatabaseError::Contents {
+                path: path.to_owned(),
+                reason: format!("its attribute {name} is {other:?} instead of a whole number"),
             }),
         }
     }

@@ -12,8 +12,9 @@
 //!
 //! Near contact the pressure changes sides while the along component falls from the across component
 //! times sqrt(2 (1 - eps)) to zero and beyond; with an opening gap the film then leaves the contact
-//! by powers of that ratio. So the direction is stretched: with `s = sqrt(1 - eps^2)`
+//! by powers of that ratio. So the direction is stretched by `s`, which falls with that root:
 //! ```text
+//! r = sqrt(1 - eps^2),    s = r/(3 - 2 r)
 //! t = along / (|w| + |across|) = tan(pi/4 - angle/2),      a = asinh(t/s) / asinh(1/s)   in [-1, 1]
 //! ```
 //! a = 1 where the gap closes, 0 where the journal only slides, -1 where it opens. Forces are given as
@@ -39,8 +40,8 @@ impl Direction {
     pub fn new(eccentricity: f64, along: f64, across: f64) -> Self {
         let across = across.abs();
         let t = along / (along.hypot(across) + across);
-        let square = (1.0 - eccentricity) * (1.0 + eccentricity);
-        let s = square.sqrt();
+        let (s, slope) = stretch(eccentricity);
+        let square = s * s;
         let scale = 1.0 / (1.0 / s).asinh();
         let place = (t / s).asinh() * scale;
         let root = (square + t * t).sqrt();
@@ -48,17 +49,24 @@ impl Direction {
         Self {
             place,
             by_angle: -0.5 * (1.0 + t * t) * scale / root,
-            by_eccentricity: -by_s * eccentricity / s,
+            by_eccentricity: by_s * slope,
         }
     }
 
     /// Angle of the effective velocity from the line of centres at a coordinate, rad, 0 to pi.
     #[must_use]
     pub fn angle(eccentricity: f64, place: f64) -> f64 {
-        let s = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+        let s = stretch(eccentricity).0;
         let t = (s * ((1.0 / s).asinh() * place).sinh()).clamp(-1.0, 1.0);
         std::f64::consts::FRAC_PI_2 - 2.0 * t.atan()
     }
+}
+
+/// The stretch s and its derivative by the relative eccentricity.
+fn stretch(eccentricity: f64) -> (f64, f64) {
+    let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+    let rest = 3.0 - 2.0 * root;
+    (root / rest, -3.0 * eccentricity / (root * rest * rest))
 }
 
 /// Logarithm of the dissipation and asinh of the turn over it, of a force `[along, across]` the line of

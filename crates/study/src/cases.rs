@@ -379,11 +379,13 @@ const UNITS: &[(&str, &str)] = &[
 
 /// The column of a key: its unit comes last in the key, before the axis of a vector.
 fn column_of(key: String) -> Column {
-    let prefixes = [("error.", "_error"), ("comparison.plain.", "_plain")];
-    let found = prefixes
-        .iter()
-        .find_map(|(prefix, end)| Some((*end, key.strip_prefix(prefix)?)));
-    let (suffix, plain) = found.unwrap_or(("", key.as_str()));
+    let compared = key.strip_prefix("comparison.");
+    let compared = compared.and_then(|rest| rest.split_once('.'));
+    let error = key.strip_prefix("error.").map(|rest| ("error", rest));
+    let (suffix, plain) = match error.or(compared) {
+        Some((of, rest)) => (format!("_{of}"), rest),
+        None => (String::new(), key.as_str()),
+    };
     let (stem, part) = match plain.split_once('.') {
         Some((stem, part)) => (stem, format!("_{part}")),
         None => (plain, String::new()),
@@ -431,6 +433,10 @@ mod tests {
         assert_eq!(header("damping_n_s_m.yy"), "damping_yy[N.s/m]");
         assert_eq!(header("integrals.p_cos"), "integrals_p_cos[-]");
         assert_eq!(header("error.power_loss_w"), "power_loss_error[W]");
+        assert_eq!(
+            header("comparison.online.power_loss_w"),
+            "power_loss_online[W]"
+        );
         assert_eq!(header("sommerfeld_number"), "sommerfeld_number[-]");
     }
 

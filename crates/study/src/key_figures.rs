@@ -2,6 +2,7 @@
 
 use crate::cases::CaseStatus;
 use crate::limits::Quantity;
+use crate::results::database::DatabaseResults;
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{Body, CycleResults, Dynamics, Results, SteadyResults, rpm};
 use sommerfeld_bearing::{CyclePoint, Stability};
@@ -13,7 +14,7 @@ impl Results {
     #[must_use]
     pub fn key_figures(&self) -> Vec<(&'static str, String)> {
         let bars = ErrorBars(self.header.error.as_ref());
-        match &self.body {
+        let mut figures = match &self.body {
             Body::Steady(steady) => steady.key_figures(bars),
             Body::LoadCycle(cycle) => cycle.key_figures(bars),
             Body::Dimensionless(integrals) => [
@@ -41,7 +42,40 @@ impl Results {
                 figures.extend(counts.map(|(name, count)| (name, count.to_string())));
                 figures
             }
+            Body::Database(database) => database.key_figures(),
+        };
+        let databases = self.header.databases.iter();
+        figures.extend(databases.map(|one| ("film", one.told())));
+        figures
+    }
+}
+
+impl DatabaseResults {
+    fn key_figures(&self) -> Vec<(&'static str, String)> {
+        let mut figures = vec![("file", self.file.display().to_string())];
+        if let Some(built) = &self.built {
+            let facts = &built.facts;
+            figures.push(("points", facts.points.to_string()));
+            figures.push((
+                "largest error",
+                format!(
+                    "{:.2e} of {} samples, target {:.0e}",
+                    facts.stated_error, facts.samples, built.target
+                ),
+            ));
+            if !built.fresh.is_empty() {
+                figures.push((
+                    "fresh states",
+                    format!(
+                        "largest error {:.2e} of {}",
+                        built.fresh_maximum(),
+                        built.fresh.len()
+                    ),
+                ));
+            }
         }
+        figures.push(("build time", format!("{:.2} s", self.build_time)));
+        figures
     }
 }
 

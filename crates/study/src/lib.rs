@@ -1,6 +1,8 @@
 //! From a study file to results: checked input, the run, tables and the report.
 
 pub mod cases;
+pub mod database_files;
+pub mod film_tables;
 pub mod hdf5;
 pub mod input;
 mod key_figures;

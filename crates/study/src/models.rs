@@ -34,6 +34,32 @@ pub const MODELS: &[Model] = &[
     },
     Model {
         family: "film",
+        name: "online",
+        description: "Reynolds equation of a plain aligned bearing in shapes across the width and \
+                      nodes around that follow the line of centres",
+        reference: "Reynolds, O. (1886): On the theory of lubrication and its application to \
+                    Mr. Beauchamp Tower's experiments. Phil. Trans. R. Soc. 177, 157-234",
+        doi: Some("10.1098/rstl.1886.0005"),
+    },
+    Model {
+        family: "film",
+        name: "database",
+        description: "Films of a plain aligned bearing solved before, wedge and squeeze together, looked \
+                      up by relative eccentricity and direction of the motion",
+        reference: "Marsalek, O., Novotny, P., Drapal, L., Pistek, V. (2012): Improvements in \
+                    computational modelling of slide bearings, for the idea of the database",
+        doi: Some("10.2478/v10138-012-0015-7"),
+    },
+    Model {
+        family: "film",
+        name: "superposition",
+        description: "Films of wedge and squeeze solved and cut apart, stored, looked up and added",
+        reference: "Marsalek, O., Novotny, P., Drapal, L., Pistek, V. (2012): Improvements in \
+                    computational modelling of slide bearings",
+        doi: Some("10.2478/v10138-012-0015-7"),
+    },
+    Model {
+        family: "film",
         name: "short-bearing",
         description: "Reynolds equation without circumferential pressure flow: narrow bearings",
         reference: "Ocvirk, F. W. (1952): Short-bearing approximation for full journal bearings. \

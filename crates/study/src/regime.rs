@@ -97,7 +97,7 @@ impl Results {
         match &self.body {
             Body::Steady(steady) => FlowRegime::of(&steady.bearing, steady.summary.reynolds_number),
             Body::LoadCycle(cycle) => FlowRegime::of_cycle(cycle),
-            Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
+            Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => None,
         }
     }
 }

@@ -31,7 +31,7 @@ pub fn warnings(results: &Results) -> Vec<String> {
     let knows_contact = match &results.body {
         Body::Steady(steady) => steady.bearing.finish.has_contact(),
         Body::LoadCycle(cycle) => cycle.bearing.finish.has_contact(),
-        Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => false,
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => false,
     };
     let thinnest = thinnest.filter(|_| !knows_contact).and_then(thin_film);
     let peak = peak.and_then(high_pressure);

@@ -92,7 +92,7 @@ fn keys(body: &Body) -> &'static [(&'static str, Scale)] {
         Body::Steady(_) => STEADY,
         Body::LoadCycle(_) => CYCLE,
         Body::Dimensionless(_) => DIMENSIONLESS,
-        Body::Machine(_) | Body::Sweep(_) => &[],
+        Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => &[],
     }
 }
 
@@ -178,7 +178,7 @@ fn kind(key: &str, results: &Results) -> Kind {
     let bearing = match &results.body {
         Body::Steady(steady) => Some(&steady.bearing),
         Body::LoadCycle(cycle) => Some(&cycle.bearing),
-        Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => None,
     };
     let shears_by_fraction = bearing.is_some_and(|b| b.film_shear == FilmShear::FilmFraction);
     if EXTREMES.contains(&key) {
@@ -219,7 +219,11 @@ pub fn time_errors(results: &Results, run: &Figures, with_long_steps: &Figures) 
             [first, second, ..] => 0.5 * (second.crank_angle - first.crank_angle).to_degrees(),
             _ => 0.0,
         },
-        Body::Steady(_) | Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => 0.0,
+        Body::Steady(_)
+        | Body::Dimensionless(_)
+        | Body::Machine(_)
+        | Body::Database(_)
+        | Body::Sweep(_) => 0.0,
     };
     let between = sampling_errors(results);
     run.iter()
@@ -275,7 +279,11 @@ fn difference(results: &Results, key: &str, a: f64, b: f64) -> f64 {
             [first, .., last] => (last.crank_angle - first.crank_angle).to_degrees(),
             _ => return a - b,
         },
-        Body::Steady(_) | Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => 360.0,
+        Body::Steady(_)
+        | Body::Dimensionless(_)
+        | Body::Machine(_)
+        | Body::Database(_)
+        | Body::Sweep(_) => 360.0,
     };
     (a - b) - turn * ((a - b) / turn).round()
 }
@@ -296,7 +304,11 @@ pub fn relative_errors(
     };
     let half_width = match &results.body {
         Body::Steady(steady) => 0.5 * steady.bearing.width,
-        Body::LoadCycle(_) | Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => 0.0,
+        Body::LoadCycle(_)
+        | Body::Dimensionless(_)
+        | Body::Machine(_)
+        | Body::Database(_)
+        | Body::Sweep(_) => 0.0,
     };
     let mut relative = Vec::new();
     for (name, error) in errors {

@@ -15,4 +15,5 @@ mod short_bearing_film;
 
 pub use long_bearing_film::LongBearingFilm;
 pub use mobility_film::MobilityFilm;
+pub use plain_film::PlainFilm;
 pub use short_bearing_film::ShortBearingFilm;

@@ -13,10 +13,14 @@ use std::f64::consts::TAU;
 
 /// Dimensions and viscosity of a plain aligned film.
 #[derive(Debug, Clone)]
-pub(super) struct PlainFilm {
+pub struct PlainFilm {
+    /// Bore radius, m.
     pub radius: f64,
+    /// Bearing width, m.
     pub width: f64,
+    /// Radial clearance, m.
     pub clearance: f64,
+    /// Viscosity, Pa s.
     pub viscosity: f64,
     /// The last state with its reaction, for the summary.
     last: Option<(JournalState, Reaction)>,
@@ -24,7 +28,12 @@ pub(super) struct PlainFilm {
 }
 
 impl PlainFilm {
-    pub(super) fn new(bearing: &Bearing, viscosity: f64) -> Result<Self, FilmError> {
+    /// Film of `bearing` at one viscosity [Pa s].
+    ///
+    /// # Errors
+    /// [`FilmError::Unsupported`] for sizes that are not positive, unequal ambient and cavitation
+    /// pressure, surfaces that are no cylinders, or film shear other than full width.
+    pub fn new(bearing: &Bearing, viscosity: f64) -> Result<Self, FilmError> {
         let sizes = [
             bearing.diameter,
             bearing.width,
@@ -61,7 +70,9 @@ impl PlainFilm {
         })
     }
 
-    pub(super) fn capabilities() -> Capabilities {
+    /// What these films can do.
+    #[must_use]
+    pub fn capabilities() -> Capabilities {
         Capabilities {
             accepts_tilt: false,
             has_history: false,
@@ -70,12 +81,17 @@ impl PlainFilm {
         }
     }
 
-    pub(super) fn minimum_gap(&self, state: &JournalState) -> f64 {
+    /// Smallest gap, m; negative where the surfaces overlap.
+    #[must_use]
+    pub fn minimum_gap(&self, state: &JournalState) -> f64 {
         self.clearance - state.eccentricity()
     }
 
     /// Refuses states these films cannot have.
-    pub(super) fn check(&self, state: &JournalState) -> Result<(), FilmError> {
+    ///
+    /// # Errors
+    /// [`FilmError`] for values that are not finite, tilt, and a closed gap.
+    pub fn check(&self, state: &JournalState) -> Result<(), FilmError> {
         let values = [
             ("position", state.position[0] + state.position[1]),
             ("velocity", state.velocity[0] + state.velocity[1]),
@@ -100,7 +116,8 @@ impl PlainFilm {
 
     /// Velocity of the journal centre relative to the oil that both surfaces drag along, m/s: wedge
     /// and squeeze together, `velocity - mean speed x eccentricity`.
-    pub(super) fn effective_velocity(state: &JournalState) -> [f64; 2] {
+    #[must_use]
+    pub fn effective_velocity(state: &JournalState) -> [f64; 2] {
         let speed = state.mean_speed();
         [
             state.velocity[0] + speed * state.position[1],
@@ -110,7 +127,7 @@ impl PlainFilm {
 
     /// Completes a force and its tangents by position (at fixed effective velocity) and by effective
     /// velocity to the film's answer, and remembers it for the summary.
-    pub(super) fn answer(
+    pub fn answer(
         &mut self,
         state: &JournalState,
         force: [f64; 2],
@@ -153,11 +170,14 @@ impl PlainFilm {
         }
     }
 
-    pub(super) fn last_state(&self) -> Option<&JournalState> {
+    /// The state last answered.
+    #[must_use]
+    pub fn last_state(&self) -> Option<&JournalState> {
         self.last.as_ref().map(|(state, _)| state)
     }
 
-    pub(super) fn restart_count(&mut self) {
+    /// Counts updates from zero again.
+    pub fn restart_count(&mut self) {
         self.updates = 0;
     }
 
@@ -165,7 +185,8 @@ impl PlainFilm {
     /// end (m3/s) and the share of the land under pressure. Feeds are not part of these films, so
     /// what leaves at the ends is counted as created. The density is not known, so that the Reynolds
     /// number stays 0.
-    pub(super) fn summary(&self, peak: Extreme, end_flow: f64, share: f64) -> FilmSummary {
+    #[must_use]
+    pub fn summary(&self, peak: Extreme, end_flow: f64, share: f64) -> FilmSummary {
         let Some((state, reaction)) = &self.last else {
             return FilmSummary::default();
         };

@@ -132,6 +132,8 @@ fn kind(kind: &Kind) -> String {
         Kind::Pair(dimension, _) => format!("[x, y], each {}", units(dimension)),
         Kind::List(dimension, _) => format!("one, or a list, each {}", units(dimension)),
         Kind::Integers(..) => "a whole number, or a list of them".into(),
+        Kind::Numbers(_) => "a number without unit, or a list of them".into(),
+        Kind::Files => "the path of a file, or a list of them".into(),
         Kind::Grid => "[around, axial] in cells".into(),
         Kind::Choice(built, []) => built.join(" | "),
         Kind::Words(built) => format!("a list of {}", built.join(", ")),

@@ -97,6 +97,14 @@ fn plain(kind: &Kind) -> Value {
             let one = json!({ "type": "integer", "minimum": low, "maximum": high });
             json!({ "anyOf": [one, { "type": "array", "minItems": 1, "items": one }] })
         }
+        Kind::Numbers(_) => json!({ "anyOf": [
+            { "type": "number" },
+            { "type": "array", "minItems": 1, "items": { "type": "number" } },
+        ]}),
+        Kind::Files => json!({ "anyOf": [
+            { "type": "string" },
+            { "type": "array", "minItems": 1, "items": { "type": "string" } },
+        ]}),
         Kind::Grid => {
             let [around, axial] = GRID_LIMITS
                 .map(|[low, high]| json!({ "type": "integer", "minimum": low, "maximum": high }));

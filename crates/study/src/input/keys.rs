@@ -1,11 +1,11 @@
 //! The keys of the study file, schema 1.
 
 use super::schema::Kind::{
-    Choice, Flag, Grid, Integer, Integers, Limit, List, NotBuilt, Number, Pair, Quantity,
-    QuantityOrLaw, Table, TableList, TableOrList, Text, Vary, Words,
+    Choice, Files, Flag, Grid, Integer, Integers, Limit, List, NotBuilt, Number, Numbers, Pair,
+    Quantity, QuantityOrLaw, Table, TableList, TableOrList, Text, Vary, Words,
 };
 use super::schema::Mode::{
-    self, Coefficients, Dimensionless, Engine, Equilibrium, Film, LoadCycle, Shaft, Sweep,
+    self, Coefficients, Database, Dimensionless, Engine, Equilibrium, Film, LoadCycle, Shaft, Sweep,
 };
 use super::schema::Presence::{self, Default, Optional, Required};
 use super::schema::{Key, Kind, Range};
@@ -21,6 +21,7 @@ const ALL: &[Mode] = &[
     Shaft,
 ];
 const EVERY: &[Mode] = &[
+    Database,
     Film,
     Dimensionless,
     Equilibrium,
@@ -31,9 +32,31 @@ const EVERY: &[Mode] = &[
     Sweep,
 ];
 const SWEEP: &[Mode] = &[Sweep];
+const DATABASE: &[Mode] = &[Database];
+/// What has a size, and may share its file with the database of its films.
+const SIZED: &[Mode] = &[
+    Film,
+    Equilibrium,
+    Coefficients,
+    LoadCycle,
+    Engine,
+    Shaft,
+    Database,
+];
+/// What has closures of the film.
+const CLOSED: &[Mode] = &[
+    Film,
+    Dimensionless,
+    Equilibrium,
+    Coefficients,
+    LoadCycle,
+    Engine,
+    Shaft,
+    Database,
+];
 const PHYSICAL: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle, Engine, Shaft];
 const REFINED: &[Mode] = &[Film, Dimensionless, Equilibrium, Coefficients, LoadCycle];
-const COMPARED: &[Mode] = &[Film, Equilibrium, LoadCycle];
+const COMPARED: &[Mode] = &[Film, Equilibrium, Coefficients, LoadCycle];
 const OPERATED: &[Mode] = &[Film, Equilibrium, Coefficients];
 const STEADY: &[Mode] = &[Equilibrium, Coefficients];
 const TURNING: &[Mode] = &[Coefficients];
@@ -125,18 +148,18 @@ const fn planned(path: &'static str, meaning: &'static str) -> Key {
 pub const KEYS: &[Key] = &[
     key("schema", Integer(1, 1), Required, EVERY, "Version of the study file format.", "1"),
     key("title", Text, Default(""), EVERY, "Title of the study, shown in the report.", "\"Big end, 2000 rpm\""),
-    key("analysis", Choice(&["film", "equilibrium", "coefficients", "load-cycle", "engine", "shaft", "sweep"], &["database"]),
-        Required, EVERY, "What is calculated: one film, the position under a constant load, stiffness and damping there, the journal orbit over a load cycle, every bearing of an engine or of a shaft, or one of the first four for many values of some keys.", "\"load-cycle\""),
+    key("analysis", Choice(&["film", "equilibrium", "coefficients", "load-cycle", "engine", "shaft", "database", "sweep"], &[]),
+        Required, EVERY, "What is calculated: one film, the position under a constant load, stiffness and damping there, the journal orbit over a load cycle, every bearing of an engine or of a shaft, films stored to be looked up, or one of these for many values of some keys.", "\"load-cycle\""),
 
-    key("bearing", TableOrList, Required, PHYSICAL, "The bearing: its size, clearance and oil supply. An engine or shaft has several: write [[bearing]] for each kind, and one with numbers for those that differ from it.", ""),
+    key("bearing", TableOrList, Required, SIZED, "The bearing: its size, clearance and oil supply. An engine or shaft has several: write [[bearing]] for each kind, and one with numbers for those that differ from it.", ""),
     key("bearing.of", Choice(&["main", "big-end", "small-end", "piston-boss", "shaft"], &[]), Optional, MACHINE,
         "Kind of the bearings of an engine: main and big-end must be there, small-end and piston-boss may. Those of a shaft are all of kind shaft.", "\"main\""),
     key("bearing.numbers", Integers(1, 1000), Optional, MACHINE,
         "The bearings of the kind that this one describes, counted from the free end (mains, bearings of a shaft) or by cylinder; what it leaves out is taken from the [[bearing]] of the kind without numbers.", "[4]"),
     key("bearing.offset", Pair(Dimension::Length, Range::between(-10.0, 10.0, "mm")), Optional, MACHINE,
         "Position of the bore against the common line of the bores, along X and Y; of main bearings of an elastic crankshaft and bearings of an elastic shaft.", "[\"10 um\", \"0 um\"]"),
-    key("bearing.diameter", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bore diameter.", "\"30 mm\" to \"500 mm\""),
-    key("bearing.width", Quantity(Dimension::Length, SIZE), Required, PHYSICAL, "Bearing width along the axis.", "0.2 to 1 times the diameter"),
+    key("bearing.diameter", Quantity(Dimension::Length, SIZE), Required, SIZED, "Bore diameter.", "\"30 mm\" to \"500 mm\""),
+    key("bearing.width", Quantity(Dimension::Length, SIZE), Required, SIZED, "Bearing width along the axis.", "0.2 to 1 times the diameter"),
     key("bearing.diametral_clearance", Quantity(Dimension::Length, CLEARANCE), Optional, PHYSICAL,
         "Bore diameter minus journal diameter: twice the radial clearance. Give this or relative_clearance.", "0.7 to 2 um per mm of diameter"),
     key("bearing.relative_clearance", Number(Range::between(1e-6, 0.1, "")), Optional, PHYSICAL,
@@ -303,14 +326,18 @@ pub const KEYS: &[Key] = &[
     key("heat.expansion.shell.housing_poisson", Number(POISSON), Default("0.3"), PHYSICAL, "Poisson's ratio of the housing.", "0.33 aluminium"),
     key("heat.expansion.shell.interference", Quantity(Dimension::Length, Range::between(0.0, 10.0, "mm")), Required, PHYSICAL, "Diametral interference at reference_temperature: outer diameter of the free shell minus inner diameter of the free housing.", "\"40 um\" to \"100 um\""),
 
-    key("film", Table, Optional, ALL, "How the film is modelled.", ""),
-    key("film.model", Choice(&["field", "short-bearing", "mobility", "long-bearing"], &["database", "online"]), Default("field"), ALL,
-        "field: Reynolds equation on a grid; the others are closed forms, estimates outside their range.", "\"field\""),
+    key("film", Table, Optional, CLOSED, "How the film is modelled.", ""),
+    key("film.model", Choice(&["field", "online", "database", "superposition", "short-bearing", "mobility", "long-bearing"], &[]), Default("field"), ALL,
+        "field: Reynolds equation on a grid; online: the film of a plain aligned bearing without feeds, solved in microseconds with the closure gumbel (its default) or reynolds; database: the same bearing looked up in the films of film.database, with their closure; superposition: the same with wedge and squeeze stored apart and their forces added, as in the paper, for comparison; the others are closed forms, estimates outside their range.", "\"field\""),
+    key("film.database", Files, Optional, PHYSICAL,
+        "HDF5 file beside the study, or a list of files, that hold the films of the models looked up in databases; `sommerfeld database build` or an analysis \"database\" makes one. Of several files each bearing takes the first that holds its closure and its width over diameter.", "\"big-end-films/table.h5\""),
+    key("film.feeds", Choice(&["used", "left-out"], &[]), Default("used"), PHYSICAL,
+        "left-out: the film is that of the bearings without their grooves and holes, for film models that have none.", "\"used\""),
     key("film.method", Choice(&["finite-volume", "vogelpohl-fdm"], &[]), Default("finite-volume"), ALL,
         "How a dimensionless film is solved. finite-volume: cells and active sets, direct; vogelpohl-fdm: the paper's finite differences of the pressure times H^1.5 on variable steps with point iteration, closure reynolds, for comparison.", "\"finite-volume\""),
-    key("film.cavitation", Choice(&["gumbel", "reynolds", "mass-conserving"], &[]), Default("mass-conserving"), ALL,
-        "Closure for the ruptured film: cut negative pressures, smooth rupture (Swift-Stieber), or Jakobsson-Floberg-Olsson.", "\"mass-conserving\""),
-    key("film.inlet", Choice(&["cyclic", "max-film-line"], &[]), Default("cyclic"), ALL,
+    key("film.cavitation", Choice(&["gumbel", "reynolds", "mass-conserving"], &[]), Default("mass-conserving"), CLOSED,
+        "Closure for the ruptured film: cut negative pressures, smooth rupture (Swift-Stieber), or Jakobsson-Floberg-Olsson. A database has reynolds where it is left out, and a film looked up in one the closure of the database.", "\"mass-conserving\""),
+    key("film.inlet", Choice(&["cyclic", "max-film-line"], &[]), Default("cyclic"), CLOSED,
         "Where the film starts: periodic, or full at inlet_pressure on the line of the widest gap, which moves.", "\"cyclic\""),
     key("film.inlet_pressure", Quantity(Dimension::Pressure, GAUGE), Default("0 bar"), PHYSICAL, "Pressure (gauge) on the line of the widest gap; with inlet = \"max-film-line\".", "\"0 bar\""),
     key("film.ends", Choice(&["air", "flooded"], &[]), Default("air"), ALL, "What surrounds the bearing ends: air (oil may leave, none enters) or an oil bath.", "\"air\""),
@@ -322,8 +349,8 @@ pub const KEYS: &[Key] = &[
     key("film.linear_solver", Choice(&["auto", "banded"], &["multigrid"]), Default("auto"), ALL, "Solver of the linear systems.", "\"auto\""),
     key("film.relative_error_target", Number(Range::between(1e-6, 0.1, "")), Optional, REFINED,
         "Refine the grid, from half of film.grid on, and extrapolate until the estimated discretisation error of every figure is below this: relative to the force or moment vector, the flow, a radian, else to the figure. Load cycles refine their time step too and extrapolate nothing. At most 512 x 128 cells (load cycles 256 x 64 and a quarter of crank_step) or 8 times film.grid in each direction; a figure that misses the target there is named in the messages with its error, and the run still counts as converged.", "1e-3"),
-    key("film.compare", Words(&["plain"]), Optional, COMPARED,
-        "Runs the study once more and reports the difference. plain: smooth surfaces, a rigid shell, an oil of constant viscosity and density, one temperature; that of the heat balance with its clearance, of the supply where the temperature is a field, else oil.temperature.", "[\"plain\"]"),
+    key("film.compare", Words(&["plain", "field", "online", "database", "superposition", "short-bearing", "mobility", "long-bearing"]), Optional, COMPARED,
+        "Runs the study once more with each of these and reports the differences. plain: smooth surfaces, a rigid shell, an oil of constant viscosity and density, one temperature; that of the heat balance with its clearance, of the supply where the temperature is a field, else oil.temperature. The others are film models, as under model: one that cannot do what the study asks is named with the reason.", "[\"plain\", \"short-bearing\"]"),
 
     key("operation", Table, Required, &[Film, Dimensionless, Equilibrium, Coefficients], "How the bearing runs.", ""),
     key("operation.speed", Quantity(Dimension::AngularSpeed, SPEED), Required, OPERATED, "Angular speed of the journal, relative to the frame of the loads.", "\"2000 rpm\""),
@@ -368,6 +395,16 @@ pub const KEYS: &[Key] = &[
     key("wear.running_in.step_depth", Number(Range::above(0.0, 1.0, "")), Default("0.2"), CYCLE, "Largest depth worn in one step, over the composite roughness; steps are shorter where a wear rate would change by more than half of the largest.", "0.1 to 0.5"),
     key("wear.running_in.settled_below", Number(Range::between(0.0, 1.0, "")), Default("0.02"), CYCLE, "The shell has run in when no wear rate changes in a step by more than this share of the largest one, or when the largest has faded to this share of the first one; 0 runs the whole time.", "0.02"),
     key("wear.running_in.roughness", Choice(&["truncated", "kept"], &[]), Default("truncated"), CYCLE, "What becomes of the roughness of the shell. truncated: its Gaussian summits are worn off first, down to 0.584 of the rms when all are gone, by the mean worn depth of the worn zone; kept: wear moves the profile alone.", "\"truncated\""),
+
+    key("database", Table, Required, DATABASE, "A database of films that is to be built.", ""),
+    key("database.scheme", Choice(&["combined", "superposition"], &[]), Default("combined"), DATABASE,
+        "combined: wedge and squeeze solved together at every ratio of one to the other, exact up to the stated error; superposition: each solved apart and their forces added, as in the paper, which errs by tens of percent where both act.", "\"combined\""),
+    key("database.width_ratios", Numbers(Range::between(0.05, 4.0, "")), Optional, DATABASE,
+        "Width over diameter of the bearings: one, or the smallest and the largest, between which every one is held. Left out, it is that of [bearing].", "0.4, [0.3, 0.5]"),
+    key("database.target", Number(Range::between(1e-5, 0.05, "")), Default("1e-3"), DATABASE, "Largest error of the force over its size, on states drawn at random; nodes are added until it is met. Of superposition nothing is added: a table that misses it says so.", "1e-3"),
+    key("database.last_eccentricity", Number(Range::between(0.5, 0.9999, "")), Optional, DATABASE, "Largest relative eccentricity of the nodes; the film is continued smoothly beyond. Default: 0.999; 0.99 of superposition.", "0.999"),
+    key("database.samples", Integer(8, 1_000_000), Optional, DATABASE, "States drawn at random at which the database is held against films solved for them. Default: 400; 40 for each drive of superposition.", "400"),
+    key("database.seed", Integer(0, i64::MAX), Default("1"), DATABASE, "Where the random states begin: another number draws others.", "1"),
 
     key("limits", Table, Optional, PHYSICAL, "Design limits, shown with OK or exceeded.", ""),
     key("limits.minimum_film_thickness", Limit(Dimension::Length, Range::above(0.0, 10.0, "mm")), Optional, PHYSICAL, "Smallest film thickness allowed.", "{ value = \"1 um\", source = \"house rule\" }"),

@@ -10,6 +10,7 @@ pub mod diagram_file;
 mod error;
 mod explain;
 mod files;
+pub(crate) mod film_models;
 mod heat;
 mod json_schema;
 mod keys;
@@ -33,8 +34,9 @@ pub use json_schema::json_schema;
 pub use keys::KEYS;
 pub use machine::{EnginePlan, Machine, MachineBearing, MachinePlan, OrbitPlan};
 pub use study::{
-    Analysis, BearingCase, CycleDuty, Duty, FilmMethod, FilmModel, FilmSettings, LinearSolver,
-    Rotor, SteadyLoad, StoredInstants, Study, StudyLimit, Subject, TiltCondition,
+    Analysis, BearingCase, Compared, CycleDuty, DatabasePlan, Duty, FilmMethod, FilmModel,
+    FilmSettings, LinearSolver, Rotor, SteadyLoad, StoredInstants, Study, StudyLimit, Subject,
+    TiltCondition,
 };
 pub use sweep::{Keep, KeyStep, SweepMode, SweepPlan, VariedKey, VariedValue};
 pub use wear::{RunningInPlan, WearPlan};

@@ -86,6 +86,10 @@ pub enum Kind {
     List(Dimension, Range),
     /// One whole number or more, each between two bounds.
     Integers(i64, i64),
+    /// One bare number or more.
+    Numbers(Range),
+    /// The path of a file, or several.
+    Files,
     /// Cells around and along the axis.
     Grid,
     /// One of these words; the second list is planned, and refused by name.
@@ -128,6 +132,8 @@ pub enum Mode {
     Engine,
     /// Every bearing of a shaft with given loads.
     Shaft,
+    /// Films solved before, stored to be looked up.
+    Database,
     /// Many cases of a base study.
     Sweep,
 }
@@ -144,6 +150,7 @@ impl Mode {
             Self::LoadCycle => "load-cycle",
             Self::Engine => "engine",
             Self::Shaft => "shaft",
+            Self::Database => "database",
             Self::Sweep => "sweep",
         }
     }

@@ -5,9 +5,12 @@ use super::heat::HeatPlan;
 use super::machine::MachinePlan;
 use super::sweep::SweepPlan;
 use super::wear::WearPlan;
+use crate::film_tables::{Scheme, StoredFilms};
 use sommerfeld_bearing::LoadCycle;
+use sommerfeld_database::Recipe;
+use sommerfeld_database::superposition::SuperpositionRecipe;
 use sommerfeld_film::dimensionless::DimensionlessFilm;
-use sommerfeld_film::{Bearing, JournalState};
+use sommerfeld_film::{Bearing, Cavitation, JournalState};
 use sommerfeld_oil::Lubricant;
 use std::path::PathBuf;
 
@@ -44,7 +47,10 @@ impl Study {
     pub fn bearing_case(&self) -> Option<&BearingCase> {
         match &self.subject {
             Subject::Bearing(case) => Some(case),
-            Subject::Dimensionless(_) | Subject::Sweep(_) | Subject::Machine(_) => None,
+            Subject::Dimensionless(_)
+            | Subject::Sweep(_)
+            | Subject::Machine(_)
+            | Subject::Database(_) => None,
         }
     }
 }
@@ -64,6 +70,8 @@ pub enum Analysis {
     Engine,
     /// Every bearing of a shaft with given loads.
     Shaft,
+    /// Films solved before, stored to be looked up.
+    Database,
     /// One of these for each of many cases.
     Sweep,
 }
@@ -79,6 +87,7 @@ impl Analysis {
             Self::LoadCycle => "load-cycle",
             Self::Engine => "engine",
             Self::Shaft => "shaft",
+            Self::Database => "database",
             Self::Sweep => "sweep",
         }
     }
@@ -93,8 +102,62 @@ pub enum Subject {
     Dimensionless(DimensionlessFilm),
     /// An engine or shaft with all its bearings.
     Machine(Box<MachinePlan>),
+    /// A database of films.
+    Database(Box<DatabasePlan>),
     /// Many cases of a base study.
     Sweep(SweepPlan),
+}
+
+/// A database of films that is to be built.
+#[derive(Debug, Clone, PartialEq)]
+pub enum DatabasePlan {
+    /// Wedge and squeeze solved together.
+    Combined(Recipe),
+    /// Wedge and squeeze solved apart, as in the paper.
+    Superposition {
+        /// Everything that decides what it holds.
+        recipe: SuperpositionRecipe,
+        /// Error that is asked for.
+        target: f64,
+    },
+}
+
+impl DatabasePlan {
+    /// Closure for the ruptured film.
+    #[must_use]
+    pub const fn closure(&self) -> Cavitation {
+        match self {
+            Self::Combined(recipe) => recipe.closure,
+            Self::Superposition { recipe, .. } => recipe.cavitation,
+        }
+    }
+
+    /// How wedge and squeeze are put together.
+    #[must_use]
+    pub const fn scheme(&self) -> Scheme {
+        match self {
+            Self::Combined(_) => Scheme::Combined,
+            Self::Superposition { .. } => Scheme::Superposition,
+        }
+    }
+
+    /// Smallest and largest width over diameter.
+    #[must_use]
+    pub const fn width_ratios(&self) -> [f64; 2] {
+        match self {
+            Self::Combined(recipe) => recipe.width_ratios,
+            Self::Superposition { recipe, .. } => [1.0 / recipe.d_over_b; 2],
+        }
+    }
+
+    /// Error asked for.
+    #[must_use]
+    pub const fn target(&self) -> f64 {
+        match self {
+            Self::Combined(recipe) => recipe.target,
+            Self::Superposition { target, .. } => *target,
+        }
+    }
 }
 
 /// A bearing with its oil and what it has to do.
@@ -192,7 +255,7 @@ pub enum StoredInstants {
 }
 
 /// How the film is modelled.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FilmSettings {
     /// The model.
     pub model: FilmModel,
@@ -205,8 +268,35 @@ pub struct FilmSettings {
     /// Estimated error below which the grid is refined, over the scale of each figure; `None` takes
     /// the grid as it is.
     pub relative_error_target: Option<f64>,
-    /// The study is run once more with plain surfaces and oil, to compare.
-    pub compare_plain: bool,
+    /// What the study is run once more with, to compare.
+    pub compare: Vec<Compared>,
+    /// The databases that the study names.
+    pub databases: Vec<StoredFilms>,
+}
+
+impl FilmSettings {
+    /// The study is run once more with plain surfaces and oil.
+    #[must_use]
+    pub fn compares_plain(&self) -> bool {
+        self.compare.contains(&Compared::Plain)
+    }
+
+    /// Film models beside the study's own that it is run with once more.
+    pub fn compared_models(&self) -> impl Iterator<Item = FilmModel> {
+        self.compare.iter().filter_map(|compared| match compared {
+            Compared::Plain => None,
+            Compared::Model(model) => Some(*model),
+        })
+    }
+}
+
+/// What a study is run once more with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Compared {
+    /// Smooth surfaces, a rigid shell, an oil of constant viscosity and density.
+    Plain,
+    /// Another model of the film.
+    Model(FilmModel),
 }
 
 /// A model of the film.
@@ -220,9 +310,32 @@ pub enum FilmModel {
     Mobility,
     /// Closed form of the infinitely long bearing (Sommerfeld).
     LongBearing,
+    /// Solved on line in shapes across the width, without a grid.
+    Online,
+    /// Looked up in a database of wedge and squeeze solved together.
+    Database,
+    /// Looked up in a database of wedge and squeeze solved apart, their forces added.
+    Superposition,
 }
 
 impl FilmModel {
+    /// Every model.
+    pub const ALL: [Self; 7] = [
+        Self::Field,
+        Self::ShortBearing,
+        Self::Mobility,
+        Self::LongBearing,
+        Self::Online,
+        Self::Database,
+        Self::Superposition,
+    ];
+
+    /// The model of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|model| model.name() == name)
+    }
+
     /// As in the study file.
     #[must_use]
     pub const fn name(self) -> &'static str {
@@ -231,6 +344,9 @@ impl FilmModel {
             Self::ShortBearing => "short-bearing",
             Self::Mobility => "mobility",
             Self::LongBearing => "long-bearing",
+            Self::Online => "online",
+            Self::Database => "database",
+            Self::Superposition => "superposition",
         }
     }
 
@@ -238,6 +354,22 @@ impl FilmModel {
     #[must_use]
     pub const fn is_field(self) -> bool {
         matches!(self, Self::Field)
+    }
+
+    /// It is looked up in a database.
+    #[must_use]
+    pub const fn is_looked_up(self) -> bool {
+        matches!(self, Self::Database | Self::Superposition)
+    }
+
+    /// It takes a bearing with grooves and holes and does not use them: an estimate of closed form. The
+    /// others that have none refuse them.
+    #[must_use]
+    pub const fn overlooks_feeds(self) -> bool {
+        matches!(
+            self,
+            Self::ShortBearing | Self::Mobility | Self::LongBearing
+        )
     }
 }
 

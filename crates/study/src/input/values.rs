@@ -164,6 +164,12 @@ pub(super) fn plain_value(key: &Key, value: &DeValue<'_>) -> Result<Value, Refus
         (Kind::Integers(low, high), DeValue::Array(list)) => {
             whole_numbers(list, low, high).map(Value::Integers)
         }
+        (Kind::Numbers(range), DeValue::Integer(_) | DeValue::Float(_)) => {
+            bare_number(value, range).map(|one| Value::List(vec![one]))
+        }
+        (Kind::Numbers(range), DeValue::Array(list)) => numbers(list, range).map(Value::List),
+        (Kind::Files, DeValue::String(text)) => Ok(Value::Words(vec![text.to_string()])),
+        (Kind::Files, DeValue::Array(list)) => files(list).map(Value::Words),
         (Kind::Grid, DeValue::Array(list)) => grid(list).map(Value::Grid),
         (Kind::Choice(built, planned), DeValue::String(text)) => choice(text, built, planned),
         (Kind::Words(built), DeValue::Array(list)) => words(list, built),
@@ -209,6 +215,8 @@ fn expected(kind: &Kind) -> String {
             format!("a list of quantities, [\"1 {unit}\", \"2 {unit}\"]")
         }
         Kind::Integers(..) => "a list of whole numbers, [1, 2]".into(),
+        Kind::Numbers(_) => "a number, or a list of them".into(),
+        Kind::Files => "the path of a file in quotes, or a list of them".into(),
         Kind::Words(built) => {
             let first = built.first().copied().unwrap_or_default();
             format!("a list of words, [\"{first}\"]")
@@ -406,6 +414,44 @@ fn whole_numbers(list: &[Spanned<DeValue<'_>>], low: i64, high: i64) -> Result<V
                 part: Some(value.span()),
                 ..refusal
             })
+        })
+        .collect()
+}
+
+fn numbers(list: &[Spanned<DeValue<'_>>], range: Range) -> Result<Vec<f64>, Refusal> {
+    if list.is_empty() || list.len() > LONGEST_LIST {
+        return Err(Refusal::new(format!("has {} values", list.len()))
+            .allowing(format!("1 to {LONGEST_LIST} values")));
+    }
+    list.iter()
+        .map(|value| {
+            let number = match value.get_ref() {
+                DeValue::Integer(_) | DeValue::Float(_) => bare_number(value.get_ref(), range),
+                other => Err(Refusal::new(format!(
+                    "must be bare numbers, not {}",
+                    type_name(other)
+                ))),
+            };
+            number.map_err(|refusal| Refusal {
+                part: Some(value.span()),
+                ..refusal
+            })
+        })
+        .collect()
+}
+
+fn files(list: &[Spanned<DeValue<'_>>]) -> Result<Vec<String>, Refusal> {
+    if list.is_empty() || list.len() > LONGEST_LIST {
+        return Err(Refusal::new(format!("has {} files", list.len()))
+            .allowing(format!("1 to {LONGEST_LIST} files")));
+    }
+    list.iter()
+        .map(|value| match value.get_ref() {
+            DeValue::String(text) => Ok(text.to_string()),
+            other => Err(Refusal {
+                part: Some(value.span()),
+                ..Refusal::new(format!("must be paths in quotes, not {}", type_name(other)))
+            }),
         })
         .collect()
 }

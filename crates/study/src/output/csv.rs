@@ -32,9 +32,11 @@ impl ResultWriter for CycleTable {
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
         match &results.body {
             Body::LoadCycle(cycle) => cycle_table(cycle).map(Some),
-            Body::Steady(_) | Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => {
-                Ok(None)
-            }
+            Body::Steady(_)
+            | Body::Dimensionless(_)
+            | Body::Machine(_)
+            | Body::Database(_)
+            | Body::Sweep(_) => Ok(None),
         }
     }
 }
@@ -60,7 +62,7 @@ impl ResultWriter for FieldTable {
         let field = match &results.body {
             Body::Steady(steady) => steady.field.as_ref(),
             Body::LoadCycle(cycle) => cycle.fields.as_ref().map(|fields| &fields.worst.field),
-            Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
+            Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => None,
         };
         field.map(field_table).transpose()
     }
@@ -90,9 +92,11 @@ impl ResultWriter for CaseTable {
     fn content(&self, results: &Results) -> Result<Option<Vec<u8>>, OutputError> {
         match &results.body {
             Body::Sweep(sweep) => case_table(sweep).map(Some),
-            Body::Steady(_) | Body::LoadCycle(_) | Body::Dimensionless(_) | Body::Machine(_) => {
-                Ok(None)
-            }
+            Body::Steady(_)
+            | Body::LoadCycle(_)
+            | Body::Dimensionless(_)
+            | Body::Machine(_)
+            | Body::Database(_) => Ok(None),
         }
     }
 }

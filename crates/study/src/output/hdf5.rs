@@ -111,7 +111,7 @@ pub fn write(
             }
         }
         Body::Machine(machine) => file.machine(machine)?,
-        Body::Dimensionless(_) | Body::Sweep(_) => {}
+        Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => {}
     }
     file.file.finish()?.flush()
 }

@@ -9,14 +9,16 @@ use mixed::{contact_keys, heat_keys, wear_keys};
 use super::machine::{rounded_rpm, status_of};
 use super::{OutputError, ResultWriter};
 use crate::cases::{CaseStatus, SweepResults};
+use crate::film_tables::DatabaseFacts;
 use crate::limits::LimitCheck;
 use crate::models::Model;
 use crate::oil_holes::{OilHole, oil_holes};
+use crate::results::database::DatabaseResults;
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults};
 use crate::results::{
-    Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, PROGRAM,
-    PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees, film_parameter, magnitude,
-    specific_load, stability_name, status_name,
+    Body, CycleResults, DimensionlessResults, Dynamics, Header, InstantCoefficients, ModelEnd,
+    ModelRun, PROGRAM, PlainRun, Results, SCHEMA, SteadyResults, VERSION, degrees, film_parameter,
+    magnitude, specific_load, stability_name, status_name,
 };
 use serde_json::{Map, Value, json};
 use sommerfeld_bearing::Coefficients;
@@ -56,6 +58,7 @@ pub fn summary(results: &Results) -> Value {
         Body::LoadCycle(cycle) => cycle_keys(cycle),
         Body::Dimensionless(integrals) => dimensionless_keys(integrals),
         Body::Machine(machine) => machine_keys(machine, &results.header.limits),
+        Body::Database(database) => database_keys(database),
         Body::Sweep(sweep) => sweep_keys(sweep),
     };
     if let Value::Object(body) = body {
@@ -64,8 +67,11 @@ pub fn summary(results: &Results) -> Value {
     if let Some(heat) = &results.header.heat {
         object.extend(heat_keys(heat));
     }
-    if let Some(plain) = &results.header.plain {
-        object.insert("comparison".into(), json!({ "plain": plain_keys(plain) }));
+    if !results.header.databases.is_empty() {
+        object.insert("databases".into(), looked_up(&results.header.databases));
+    }
+    if let Some(compared) = comparison(&results.header, &object) {
+        object.insert("comparison".into(), compared);
     }
     if let Some(grid) = results.header.grid {
         object.insert("grid".into(), json!(grid));
@@ -80,6 +86,51 @@ pub fn summary(results: &Results) -> Value {
     Value::Object(object)
 }
 
+/// A database that was built, or begun.
+fn database_keys(database: &DatabaseResults) -> Value {
+    let mut keys = json!({
+        "file": database.file.to_string_lossy(),
+        "build_time_s": database.build_time,
+        "points": null,
+        "maximum_relative_error": null,
+        "error_samples": null,
+    });
+    let Some(built) = &database.built else {
+        return keys;
+    };
+    keys["points"] = json!(built.facts.points);
+    keys["maximum_relative_error"] = json!(built.facts.stated_error);
+    keys["error_samples"] = json!(built.facts.samples);
+    keys["target"] = json!(built.target);
+    keys["relative_error_quantile_999"] = json!(built.quantile_999);
+    keys["relative_error_median"] = json!(built.median);
+    keys["peak_pressure_maximum_relative_error"] = json!(built.peak_maximum);
+    keys["fresh_maximum_relative_error"] = json!(built.fresh_maximum());
+    keys["fresh_samples"] = json!(built.fresh.len());
+    keys["scheme"] = json!(built.facts.scheme.name());
+    keys["closure"] = json!(built.facts.closure);
+    keys["width_ratios"] = json!(built.facts.width_ratios);
+    keys["last_eccentricity"] = json!(built.facts.last_eccentricity);
+    keys
+}
+
+/// The databases that films were looked up in.
+fn looked_up(databases: &[DatabaseFacts]) -> Value {
+    let all = databases.iter().map(|facts| {
+        json!({
+            "file": facts.file,
+            "scheme": facts.scheme.name(),
+            "closure": facts.closure,
+            "width_ratios": facts.width_ratios,
+            "last_eccentricity": facts.last_eccentricity,
+            "target": facts.bound,
+            "maximum_relative_error": facts.stated_error,
+            "error_samples": facts.samples,
+        })
+    });
+    all.collect()
+}
+
 /// Keys of a summary that a plain run repeats: of a steady state, of a load cycle.
 const COMPARED: &[&str] = &[
     "minimum_film_thickness_m",
@@ -91,26 +142,74 @@ const COMPARED: &[&str] = &[
     "relative_eccentricity",
     "mean_relative_eccentricity",
     "friction_coefficient",
+    "stiffness_n_m",
+    "damping_n_s_m",
 ];
+
+/// The study run once more with plain surfaces and oil, and with other film models; `own` holds the
+/// study's own figures.
+fn comparison(header: &Header, own: &Map<String, Value>) -> Option<Value> {
+    let mut all = Map::new();
+    if let Some(plain) = &header.plain {
+        all.insert("plain".into(), plain_keys(plain));
+    }
+    if let Some(compared) = &header.comparison {
+        all.insert("own_model".into(), json!(compared.own_model));
+        all.insert("own_wall_time_s".into(), json!(compared.own_wall_time));
+        let runs = compared.runs.iter();
+        all.extend(runs.map(|run| (run.model.to_owned(), model_keys(run, own))));
+    }
+    (!all.is_empty()).then_some(Value::Object(all))
+}
 
 /// The plain run under the keys of the study's own figures.
 fn plain_keys(plain: &PlainRun) -> Value {
     let mut keys = json!({
         "status": status_name(plain.status),
         "temperature_degc": plain.temperature - 273.15,
+        "wall_time_s": plain.wall_time,
     });
-    let found = match &plain.body {
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(compared_keys(plain.body.as_ref()));
+    }
+    keys
+}
+
+/// The run of another model under the keys of the study's own figures, and how far it is from them.
+fn model_keys(run: &ModelRun, own: &Map<String, Value>) -> Value {
+    let mut keys = json!({
+        "status": run.end.name(),
+        "wall_time_s": run.wall_time,
+        "notes": run.notes,
+    });
+    if let ModelEnd::Refused(reason) = &run.end {
+        keys["reason"] = json!(reason);
+    }
+    let found = compared_keys(run.body.as_ref());
+    let change = |(key, value): (&String, &Value)| {
+        let share = value.as_f64()? / own.get(key)?.as_f64()? - 1.0;
+        Some((key.clone(), json!(100.0 * share)))
+    };
+    let changes: Map<String, Value> = found.iter().filter_map(change).collect();
+    if let Value::Object(keys) = &mut keys {
+        keys.extend(found);
+        if !changes.is_empty() {
+            keys.insert("difference_percent".into(), Value::Object(changes));
+        }
+    }
+    keys
+}
+
+fn compared_keys(body: Option<&Body>) -> Map<String, Value> {
+    let found = match body {
         Some(Body::Steady(steady)) => as_map(steady_keys(steady)),
         Some(Body::LoadCycle(cycle)) => as_map(cycle_keys(cycle)),
         _ => Map::new(),
     };
-    if let Value::Object(keys) = &mut keys {
-        let compared = found
-            .into_iter()
-            .filter(|(key, _)| COMPARED.contains(&key.as_str()));
-        keys.extend(compared);
-    }
-    keys
+    let compared = found.into_iter();
+    compared
+        .filter(|(key, _)| COMPARED.contains(&key.as_str()))
+        .collect()
 }
 
 /// The first speed at the top, every speed in a list of its own.

@@ -148,7 +148,11 @@ impl ResultWriter for BearingTables {
 fn machine_of(results: &Results) -> Option<&MachineResults> {
     match &results.body {
         Body::Machine(machine) => Some(machine),
-        Body::Steady(_) | Body::LoadCycle(_) | Body::Dimensionless(_) | Body::Sweep(_) => None,
+        Body::Steady(_)
+        | Body::LoadCycle(_)
+        | Body::Dimensionless(_)
+        | Body::Database(_)
+        | Body::Sweep(_) => None,
     }
 }
 

@@ -185,7 +185,7 @@ fn films(results: &Results) -> Option<(&Bearing, Vec<Shown<'_>>)> {
             });
             Some((&cycle.bearing, films.collect()))
         }
-        Body::Dimensionless(_) | Body::Machine(_) | Body::Sweep(_) => None,
+        Body::Dimensionless(_) | Body::Machine(_) | Body::Database(_) | Body::Sweep(_) => None,
     }
 }
 

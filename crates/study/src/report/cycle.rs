@@ -10,7 +10,7 @@ use super::page::{
 };
 use super::spark::spark;
 use super::steady::further_cards;
-use super::{contact, cycle_tables, figures, heat, surfaces, wear};
+use super::{compare_models, contact, cycle_tables, figures, heat, surfaces, wear};
 use crate::limits::Quantity;
 use crate::results::{CycleResults, Header, degrees, magnitude, place, specific_load};
 use serde_json::{Value, json};
@@ -76,6 +76,7 @@ pub(super) fn part(
         .first()
         .map(|_| film::part(&cycle.bearing, &instants, detail));
     part.sections = vec![load_and_orbit(cycle), over_the_cycle(cycle)];
+    part.sections.extend(compare_models::section(header));
     part.sections.extend(contact::section(cycle));
     part.sections.extend(wear::section(cycle));
     if let Some(fields) = fields {
@@ -100,7 +101,7 @@ pub(super) fn part(
     part.data = json!({
         "units": figures::unit_symbols(units),
         "cycle": figures::cycle_data(header, cycle, units, detail),
-        "charts": charts(cycle, units, detail),
+        "charts": charts(header, cycle, units, detail),
         "film": film::film_data(&cycle.bearing, &instants, units, detail),
         "surfaces": fields
             .map(|fields| {
@@ -451,7 +452,7 @@ fn has_feed_flows(cycle: &CycleResults) -> bool {
 }
 
 /// Figures that need no drawing of their own, by their kind.
-fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
+fn charts(header: &Header, cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
     let points = &cycle.orbit.points;
     let kept = figures::thinned(points.len(), detail.curve_points);
     let over = |value: &dyn Fn(usize) -> f64| kept.iter().map(|&i| value(i)).collect::<Vec<_>>();
@@ -503,6 +504,7 @@ fn charts(cycle: &CycleResults, units: &Units, detail: &Detail) -> Value {
         charts["feed-flows"] = chart(&title, None, flows.collect());
     }
     contact::charts(cycle, units, detail, &mut charts);
+    compare_models::charts(header, cycle, units, detail, &mut charts);
     wear::charts(cycle, detail, &mut charts);
     charts
 }

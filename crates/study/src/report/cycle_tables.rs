@@ -3,7 +3,7 @@
 use super::cycle::side_flow;
 use super::format::{MICROMETRE, ONE, Unit, Units, angle, significant, size};
 use super::page::{Cell, Table, error, feed_words, headline, last_iterates, limit_cells};
-use super::{compare, contact, dynamics, heat, wear};
+use super::{compare, compare_models, contact, dynamics, heat, wear};
 use crate::limits::Quantity;
 use crate::oil_holes::oil_holes;
 use crate::regime::FlowRegime;
@@ -53,8 +53,12 @@ pub(super) fn all(header: &Header, cycle: &CycleResults, units: &Units) -> Vec<T
     tables.extend(wear::table(cycle));
     tables.extend(heat::table(header, lost, units));
     let own = compare::cycle_figures(cycle, units);
-    if let Some(table) = compare::table(header, own, units) {
-        tables.insert(1, table);
+    let compared = [
+        compare::table(header, own, units),
+        compare_models::cycle_table(header, cycle, units),
+    ];
+    for (at, table) in compared.into_iter().flatten().enumerate() {
+        tables.insert(1 + at, table);
     }
     tables.extend(feeds(cycle, units));
     tables.extend(oil_hole_rows(cycle, units));

@@ -202,6 +202,8 @@ fn own_header(header: &Header, bearing: &BearingResults) -> Header {
         limits,
         heat: bearing.heat.clone(),
         plain: None,
+        databases: Vec::new(),
+        comparison: None,
     }
 }
 

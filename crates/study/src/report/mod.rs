@@ -6,9 +6,11 @@
 
 mod chart;
 mod compare;
+mod compare_models;
 mod contact;
 mod cycle;
 mod cycle_tables;
+mod database;
 mod detail;
 mod dimensionless;
 mod dynamics;
@@ -64,6 +66,7 @@ pub fn render(results: &Results) -> Result<String, minijinja::Error> {
         Body::LoadCycle(cycle) => cycle::fill(&mut page, header, cycle),
         Body::Dimensionless(integrals) => dimensionless::fill(&mut page, header, integrals),
         Body::Machine(machine) => machine::fill(&mut page, header, machine),
+        Body::Database(database) => database::fill(&mut page, header, database),
         Body::Sweep(sweep) => sweep::fill(&mut page, sweep),
     };
     let data = script_safe(&data.to_string());

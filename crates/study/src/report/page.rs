@@ -461,6 +461,7 @@ fn analysis_in_words(analysis: &str) -> String {
         "load-cycle" => "Journal orbit over a load cycle".to_owned(),
         "engine" => "Engine: every bearing over the working cycle".to_owned(),
         "shaft" => "Shaft: every bearing over its cycle".to_owned(),
+        "database" => "Database of films".to_owned(),
         "sweep" => "Sweep over a base study".to_owned(),
         other => other.to_owned(),
     }
@@ -488,6 +489,8 @@ fn facts(header: &Header) -> Vec<(String, String)> {
             format!("{} s", format::significant(header.wall_time)),
         ),
     ];
+    let databases = header.databases.iter();
+    facts.extend(databases.map(|one| ("Film".to_owned(), one.told())));
     if let Some(hash) = &header.study_hash {
         facts.push(("Hash of the input".to_owned(), hash.clone()));
     }

@@ -8,7 +8,7 @@ use super::page::{
     Card, Cell, Figure, Page, Section, Table, badge, checks, error, exact, last_iterates,
     limit_cells, outer_circle, subject,
 };
-use super::{compare, contact, dynamics, figures, heat};
+use super::{compare, compare_models, contact, dynamics, figures, heat};
 use crate::limits::Quantity;
 use crate::regime::FlowRegime;
 use crate::results::{FieldSnapshot, Header, SteadyResults, degrees, degrees_around, magnitude};
@@ -58,8 +58,12 @@ pub(super) fn fill(page: &mut Page, header: &Header, steady: &SteadyResults) -> 
     };
     page.tables.extend(beside);
     let own = compare::steady_figures(steady, &units);
-    if let Some(table) = compare::table(header, own, &units) {
-        page.tables.insert(1, table);
+    let compared = [
+        compare::table(header, own, &units),
+        compare_models::steady_table(header, steady, &units),
+    ];
+    for (at, table) in compared.into_iter().flatten().enumerate() {
+        page.tables.insert(1 + at, table);
     }
     page.tables.extend(dynamics::tables(steady));
     page.sections.extend(dynamics::section(steady));

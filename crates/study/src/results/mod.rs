@@ -1,10 +1,16 @@
 //! What one run produced: plain owned data, SI, that every output format reads.
 
+mod comparison;
+pub mod database;
 pub mod machine;
 
+pub use comparison::{Comparison, ModelEnd, ModelRun, PlainRun};
+
 use crate::cases::SweepResults;
+use crate::film_tables::DatabaseFacts;
 use crate::limits::{Limit, LimitCheck, Quantity, Side};
 use crate::models::Model;
+use database::DatabaseResults;
 use machine::{BearingResults, MachineResults};
 use serde::{Deserialize, Serialize};
 use sommerfeld_bearing::{
@@ -63,19 +69,10 @@ pub struct Header {
     pub heat: Option<HeatResults>,
     /// The same study with plain surfaces and oil, where the study asks for it.
     pub plain: Option<Box<PlainRun>>,
-}
-
-/// A study run once more with smooth surfaces, a rigid shell and an oil of constant viscosity and
-/// density, at one temperature.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PlainRun {
-    /// Temperature of the oil, K.
-    pub temperature: f64,
-    /// How the run ended.
-    pub status: Outcome,
-    /// Its numbers, without fields; none where the film refused it, as rigid smooth surfaces do at a
-    /// position that only asperities hold.
-    pub body: Option<Body>,
+    /// The databases that its films were looked up in.
+    pub databases: Vec<DatabaseFacts>,
+    /// The same study with other film models, where the study asks for them.
+    pub comparison: Option<Box<Comparison>>,
 }
 
 /// The balance of the heat that a film makes.
@@ -134,6 +131,8 @@ pub enum Body {
     Dimensionless(DimensionlessResults),
     /// Every bearing of an engine or shaft.
     Machine(Box<MachineResults>),
+    /// A database of films.
+    Database(Box<DatabaseResults>),
     /// The cases of a sweep.
     Sweep(Box<SweepResults>),
 }
@@ -411,7 +410,7 @@ impl Results {
                 let worst = machine.largest(|bearing| value(bearing).map(|found| sign * found));
                 worst.map(|(_, _, found)| sign * found)
             }
-            Body::Dimensionless(_) | Body::Sweep(_) => None,
+            Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => None,
         }
     }
 }

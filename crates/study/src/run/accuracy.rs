@@ -178,7 +178,9 @@ pub(super) fn solve_to_target(
 ) -> Result<Results, RunError> {
     let first = std::array::from_fn(|k| study.film.grid[k].max(SMALLEST_GRID[k]));
     match &study.subject {
-        Subject::Sweep(_) | Subject::Machine(_) => solve_once(study, None, progress),
+        Subject::Sweep(_) | Subject::Machine(_) | Subject::Database(_) => {
+            solve_once(study, None, progress)
+        }
         Subject::Dimensionless(film) => dimensionless_to_target(study, film, first, target),
         Subject::Bearing(case) => match &case.duty {
             Duty::Cycle(_) => cycle_to_target(study, first, target, progress),

@@ -4,6 +4,8 @@ mod accuracy;
 mod compare;
 mod crew;
 mod cycle;
+mod database;
+mod film_models;
 mod heat;
 mod heat_field;
 mod inputs;
@@ -14,28 +16,27 @@ mod steady;
 mod sweep;
 mod turn;
 
+use crate::film_tables::{Scheme, closure_name};
 use crate::input::{
     BearingCase, Duty, FilmMethod, FilmModel, FilmSettings, HeatPlan, StoredInstants, Study,
-    Subject, TiltCondition,
+    Subject,
 };
 use crate::ledger::LedgerError;
 use crate::limits::{Limit, Quantity};
 use crate::models::{self, Model};
 use crate::output::{OutputError, StoredFields, check_directory, prepare_directory, write_stored};
 use crate::progress::ProgressEvent;
-use crate::results::{Body, DimensionlessResults, Header, Results};
+use crate::results::{Body, CycleResults, DimensionlessResults, Header, Results};
 use crate::sanity;
 use crate::spool::FieldSpool;
 use cycle::solve_cycle;
+use database::{run_database, solve_database};
+use film_models::{databases_of, film_of};
 use inputs::input_rows;
 use machine::{models_of_machine, run_machine, solve_machine};
-use sommerfeld_bearing::CycleTilt;
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::vogelpohl::{VogelpohlSettings, solve_vogelpohl};
-use sommerfeld_film::{
-    Conditions, FilmError, FilmForce, FilmSolver, FilmSummary, JournalState, LongBearingFilm,
-    MobilityFilm, Outcome, ShortBearingFilm,
-};
+use sommerfeld_film::{Conditions, FilmError, FilmSummary, JournalState, Outcome};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -109,6 +110,9 @@ pub enum RunError {
         "{0}, or a file it names, has changed while the sweep ran\n  = hint: run the sweep again, in another directory unless the change is taken back"
     )]
     InputChanged(String),
+    /// A database cannot be built.
+    #[error("{0}")]
+    Database(String),
     /// The system gives no threads.
     #[error("no threads can be started: {0}")]
     Threads(String),
@@ -141,6 +145,9 @@ pub fn run_with(
     }
     if let Subject::Machine(plan) = &study.subject {
         return run_machine(study, plan, directory, options, progress);
+    }
+    if let Subject::Database(plan) = &study.subject {
+        return run_database(study, plan, directory, options, progress);
     }
     // Better told before a long run than after it.
     check_directory(directory, &study.files)?;
@@ -212,26 +219,27 @@ fn solve_into(
     match &study.subject {
         Subject::Sweep(plan) => return Ok(solve_sweep(study, plan, options, progress)),
         Subject::Machine(plan) => return solve_machine(study, plan, options, progress),
+        Subject::Database(plan) => return solve_database(study, plan, options, progress),
         Subject::Bearing(_) | Subject::Dimensionless(_) => {}
     }
     let start = Instant::now();
-    // A run that is compared leaves the second part of the bar to the other one.
-    let share = if study.film.compare_plain { 0.6 } else { 1.0 };
+    // A run that is compared leaves a part of the bar to each of the others.
+    let others = study.film.compare.len();
+    let share = 0.6 / (0.6 + 0.4 * others as f64);
+    let mut is_stopped = false;
     let mut of_share = |event: ProgressEvent| {
-        progress(ProgressEvent {
+        let answer = progress(ProgressEvent {
             done: share * event.done,
             ..event
-        })
+        });
+        is_stopped |= answer.is_break();
+        answer
     };
     let mut results = solve_accurately(study, options, spool, &mut of_share)?;
-    if study.film.compare_plain {
-        compare::with_plain(study, &mut results, &mut |event| {
-            progress(ProgressEvent {
-                label: format!("plain, {}", event.label),
-                done: share + (1.0 - share) * event.done,
-                ..event
-            })
-        });
+    if others > 0 {
+        let own_time = start.elapsed().as_secs_f64();
+        let bar = compare::Bar::new(share, others, is_stopped, progress);
+        compare::with_others(study, &mut results, own_time, bar);
     }
     results.header.wall_time = start.elapsed().as_secs_f64();
     finish_results(study, &mut results);
@@ -272,8 +280,36 @@ fn finish_results(study: &Study, results: &mut Results) {
     results.check_limits(&limits(study));
     let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
     results.header.messages.extend(beyond_laminar);
+    results.header.messages.extend(beyond_database(results));
     let warnings = sanity::warnings(results);
     results.header.messages.extend(warnings);
+}
+
+/// That a journal came nearer to the shell than the films of the databases it was looked up in.
+fn beyond_database(results: &Results) -> Option<String> {
+    let databases = results.header.databases.iter();
+    let last = databases
+        .map(|one| one.last_eccentricity)
+        .reduce(f64::min)?;
+    let of_cycle = |cycle: &CycleResults| {
+        let nearest = cycle.largest(|point| cycle.relative_eccentricity(point));
+        nearest.map(|point| cycle.relative_eccentricity(point))
+    };
+    let nearest = match &results.body {
+        Body::Steady(steady) => Some(steady.relative_eccentricity()),
+        Body::LoadCycle(cycle) => of_cycle(cycle),
+        Body::Machine(machine) => {
+            let all = machine.bearings().filter_map(|(_, on)| of_cycle(&on.cycle));
+            all.reduce(f64::max)
+        }
+        Body::Dimensionless(_) | Body::Database(_) | Body::Sweep(_) => None,
+    }?;
+    (nearest > last).then(|| {
+        format!(
+            "the journal reaches a relative eccentricity of {nearest:.6}, beyond the last of the \
+             database, {last}: there its film is continued smoothly, without a stated error"
+        )
+    })
 }
 
 /// The study as it stands, on one grid.
@@ -289,6 +325,9 @@ fn solve_once(
         }
         Subject::Machine(plan) => {
             return solve_machine(study, plan, RunOptions::default(), progress);
+        }
+        Subject::Database(plan) => {
+            return solve_database(study, plan, RunOptions::default(), progress);
         }
         Subject::Dimensionless(film) => solve_paper(film, &study.film, &mut header)?,
         Subject::Bearing(case) => match &case.heat {
@@ -352,7 +391,17 @@ fn header(study: &Study) -> Header {
         limits: Vec::new(),
         heat: None,
         plain: None,
+        databases: databases_of(study),
+        comparison: None,
     }
+}
+
+/// The closures of the databases that the films of a study are looked up in.
+fn models_of_databases(study: &Study) -> Vec<Model> {
+    let closures = databases_of(study).into_iter().map(|facts| facts.closure);
+    closures
+        .filter_map(|closure| models::find("cavitation", &closure))
+        .collect()
 }
 
 fn models_of(study: &Study) -> Vec<Model> {
@@ -363,49 +412,27 @@ fn models_of(study: &Study) -> Vec<Model> {
         // Its cases say what they used.
         Subject::Sweep(_) => used.clear(),
         Subject::Machine(plan) => used.extend(models_of_machine(plan, &study.film)),
+        Subject::Database(plan) => {
+            let film = match plan.scheme() {
+                Scheme::Combined => FilmModel::Database,
+                Scheme::Superposition => FilmModel::Superposition,
+            };
+            used = models::find("film", film.name()).into_iter().collect();
+            used.extend(models::find("cavitation", closure_name(plan.closure())));
+            used.extend(models::find("inlet", "cyclic"));
+        }
         Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
         Subject::Bearing(case) => {
             if study.film.model.is_field() {
                 used.extend(models::of_bearing(&case.bearing));
             }
+            used.extend(models_of_databases(study));
             let is_field = study.film.model.is_field();
             used.extend(models::of_oil(&case.lubricant, is_field));
             used.extend(models::find("heat", case.heat.name()));
         }
     }
     used
-}
-
-/// Whether the journal cannot tilt in this duty.
-fn stays_aligned(duty: &Duty) -> bool {
-    match duty {
-        Duty::State(state) => state.tilt == [0.0; 2] && state.tilt_rate == [0.0; 2],
-        Duty::Load(load) => load.tilt == TiltCondition::Fixed([0.0; 2]),
-        Duty::Cycle(duty) => duty.cycle.tilt == CycleTilt::Aligned,
-    }
-}
-
-/// The film model that the study names.
-fn film_of(
-    case: &BearingCase,
-    settings: &FilmSettings,
-) -> Result<Box<dyn FilmForce + Send>, FilmError> {
-    let viscosity = case.lubricant.viscosity(case.temperature, 0.0).value;
-    Ok(match settings.model {
-        FilmModel::Field if stays_aligned(&case.duty) => Box::new(FilmSolver::aligned(
-            &case.bearing,
-            &case.lubricant,
-            settings.grid,
-        )?),
-        FilmModel::Field => Box::new(FilmSolver::new(
-            &case.bearing,
-            &case.lubricant,
-            settings.grid,
-        )?),
-        FilmModel::ShortBearing => Box::new(ShortBearingFilm::new(&case.bearing, viscosity)?),
-        FilmModel::Mobility => Box::new(MobilityFilm::new(&case.bearing, viscosity)?),
-        FilmModel::LongBearing => Box::new(LongBearingFilm::new(&case.bearing, viscosity)?),
-    })
 }
 
 /// The summary with the Reynolds number of the film, where its model knows no density.

@@ -401,6 +401,8 @@ fn header(study: &Study, plan: &SweepPlan, models: Vec<Model>, sweep: &SweepResu
         limits: Vec::new(),
         heat: None,
         plain: None,
+        databases: Vec::new(),
+        comparison: None,
     }
 }
 

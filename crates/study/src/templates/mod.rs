@@ -135,6 +135,18 @@ pub const TEMPLATES: &[Template] = &[
         files: &[],
     },
     Template {
+        name: "database",
+        meaning: "films of a plain bearing, stored, and a big end that looks them up",
+        study: include_str!("database.toml"),
+        files: &[
+            (
+                "database-big-end.toml",
+                include_str!("database-big-end.toml"),
+            ),
+            ("database-loads.csv", include_str!("loads.csv")),
+        ],
+    },
+    Template {
         name: "film",
         meaning: "one film at a given journal position",
         study: include_str!("film.toml"),

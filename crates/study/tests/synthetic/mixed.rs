@@ -116,6 +116,7 @@ pub fn both(title: &str) -> [Results; 2] {
             temperature: 353.15,
             status: Outcome::Converged,
             body: Some(plain.body),
+            wall_time: 0.5,
         }));
         results
     })

@@ -101,6 +101,8 @@ pub fn header(analysis: &str, title: &str) -> Header {
         limits: Vec::new(),
         heat: None,
         plain: None,
+        databases: Vec::new(),
+        comparison: None,
     }
 }
 

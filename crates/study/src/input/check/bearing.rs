@@ -1,6 +1,7 @@
 //! Bearing and oil.
 
 use super::Checker;
+use crate::film_tables::closure_name;
 use crate::input::study::FilmModel;
 use crate::input::values::Value;
 use sommerfeld_film::{Bearing, Cavitation, Elasticity, Ends, FilmShear, Finish, Inlet, Shape};
@@ -49,6 +50,7 @@ impl Checker<'_> {
         (bearing.bore, bearing.journal) = self.shapes(&bearing)?;
         (bearing.finish, bearing.elasticity) = (finish?, elasticity?);
         self.check_shapes(&bearing)?;
+        self.check_film_model(&bearing);
         Some(bearing)
     }
 
@@ -172,6 +174,8 @@ impl Checker<'_> {
             self.refuse_rules_of_field(model);
         }
         let cavitation = match self.text("film.cavitation")?.as_str() {
+            _ if model.is_looked_up() => self.looked_up_closure(model)?,
+            "reynolds" if model == FilmModel::Online => Cavitation::Reynolds,
             _ if !model.is_field() => Cavitation::Gumbel,
             "gumbel" => Cavitation::Gumbel,
             "reynolds" => Cavitation::Reynolds,
@@ -221,16 +225,26 @@ impl Checker<'_> {
     }
 
     fn refuse_rules_of_field(&mut self, model: FilmModel) {
-        const RULES: [(&str, &str); 4] = [
-            ("film.cavitation", "gumbel"),
+        let closure = match self.looked_up_closure(model) {
+            Some(closure) if model.is_looked_up() => closure_name(closure),
+            _ => "gumbel",
+        };
+        let rules = [
+            ("film.cavitation", closure),
             ("film.inlet", "cyclic"),
             ("film.ends", "air"),
             ("film.film_shear", "full-width"),
         ];
-        for (path, own) in RULES {
+        for (path, own) in rules {
             let given = self.entry(path).map(|entry| entry.value.clone());
-            if matches!(given, Some(Value::Text(word)) if word != own) {
-                let message = format!("the model {} cannot do this", model.name());
+            let is_solved_on_line =
+                model == FilmModel::Online && given == Some(Value::Text("reynolds".to_owned()));
+            if matches!(given, Some(Value::Text(word)) if word != own) && !is_solved_on_line {
+                let held = match model.is_looked_up() {
+                    true => format!(", its films have \"{own}\""),
+                    false => String::new(),
+                };
+                let message = format!("the model {} cannot do this{held}", model.name());
                 let error = self
                     .error_at(path, message)
                     .allowing(format!("\"{own}\""))
@@ -255,12 +269,20 @@ impl Checker<'_> {
         }
         let grooves = self.reading.grooves.first().map(|(span, _)| span.clone());
         if let Some(span) = grooves {
-            let message = format!(
-                "the model {} has no grooves: they are not used",
-                model.name()
-            );
-            let note = self.reading.error(&span, message).of_key("bearing.groove");
-            self.warnings.push(note.hinting("use model = \"field\""));
+            let message = format!("the model {} has no grooves and holes", model.name());
+            let refused = self.reading.error(&span, message).of_key("bearing.groove");
+            if model.overlooks_feeds() {
+                let message = format!(
+                    "the model {} has no grooves: they are not used",
+                    model.name()
+                );
+                let note = self.reading.error(&span, message).of_key("bearing.groove");
+                self.warnings.push(note.hinting("use model = \"field\""));
+            } else {
+                self.errors.push(refused.hinting(
+                    "use model = \"field\", or film.feeds = \"left-out\" for the bearing without them",
+                ));
+            }
         }
     }
 }

@@ -22,6 +22,10 @@ impl Checker<'_> {
         if self.mode == Mode::Dimensionless {
             return self.dimensionless().map(Subject::Dimensionless);
         }
+        if self.mode == Mode::Database {
+            let plan = self.database_plan()?;
+            return Some(Subject::Database(Box::new(plan)));
+        }
         if self.mode.is_machine() {
             return self.machine();
         }

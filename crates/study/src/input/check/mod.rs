@@ -3,6 +3,7 @@
 mod bearing;
 mod combustion;
 mod crankshaft;
+mod database;
 mod drillings;
 mod duty;
 mod engine;
@@ -25,9 +26,11 @@ use super::keys::KEYS;
 use super::read::{Entries, Entry, MOST_ERRORS, Reading};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
 use super::study::{
-    Analysis, FilmMethod, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit, input_hash,
+    Analysis, Compared, FilmMethod, FilmModel, FilmSettings, LinearSolver, Study, StudyLimit,
+    input_hash,
 };
 use super::values::{Value, default_value, not_built};
+use crate::film_tables::StoredFilms;
 use grooves::DrillingKeys;
 use sommerfeld_bearing::PressureCycle;
 use sommerfeld_film::vogelpohl;
@@ -55,10 +58,13 @@ pub(super) fn study(file: &str, text: &str, directory: &Path) -> Result<Study, I
         files: vec![PathBuf::from(file)],
         feed_cycles: Vec::new(),
         drillings: Vec::new(),
+        databases: Vec::new(),
         directory,
     };
     checker.report_missing("");
     checker.report_unused("");
+    checker.leave_out_feeds();
+    checker.read_databases();
     if mode == Mode::Sweep {
         return checker.sweep();
     }
@@ -115,6 +121,7 @@ fn mode(reading: &Reading<'_>) -> Option<Mode> {
         "load-cycle" => Some(Mode::LoadCycle),
         "engine" => Some(Mode::Engine),
         "shaft" => Some(Mode::Shaft),
+        "database" => Some(Mode::Database),
         "sweep" => Some(Mode::Sweep),
         _ => None,
     }
@@ -128,6 +135,7 @@ fn analysis(mode: Mode) -> Analysis {
         Mode::LoadCycle => Analysis::LoadCycle,
         Mode::Engine => Analysis::Engine,
         Mode::Shaft => Analysis::Shaft,
+        Mode::Database => Analysis::Database,
         Mode::Sweep => Analysis::Sweep,
     }
 }
@@ -177,6 +185,8 @@ struct Checker<'t> {
     feed_cycles: Vec<PressureCycle>,
     /// Drillings in the crank of a machine, as given.
     drillings: Vec<DrillingKeys>,
+    /// The databases of films that it names.
+    databases: Vec<StoredFilms>,
     /// Where the files of the study lie.
     directory: &'t Path,
 }
@@ -244,6 +254,7 @@ impl Checker<'_> {
                 && key.used_by.contains(&self.mode)
                 && !find(section).is_some_and(|section| matches!(section.kind, Kind::TableList))
                 && !self.reading.was_given(key.path)
+                && !self.may_miss(key.path)
                 && !self.was_misspelt(key);
             // A quantity given in place of a law has no keys; a missing section is one error.
             let header = self.entry(section);
@@ -308,7 +319,7 @@ impl Checker<'_> {
                 let what = format!("film.compare of the analysis {}", self.mode.name());
                 let error = not_built(note, &what);
                 self.errors
-                    .push(error.allowing("film, equilibrium, load-cycle"));
+                    .push(error.allowing("film, equilibrium, coefficients, load-cycle"));
             } else if self.mode.is_machine() && key.path == "film.relative_error_target" {
                 let what = format!("an error target of the analysis {}", self.mode.name());
                 let error = not_built(note, &what);
@@ -411,26 +422,44 @@ impl Checker<'_> {
         are_right
     }
 
-    fn film_model(&self) -> Option<FilmModel> {
-        match self.text("film.model")?.as_str() {
-            "field" => Some(FilmModel::Field),
-            "short-bearing" => Some(FilmModel::ShortBearing),
-            "mobility" => Some(FilmModel::Mobility),
-            "long-bearing" => Some(FilmModel::LongBearing),
-            _ => None,
+    /// Takes the grooves and holes out of every bearing, where the study asks for it.
+    fn leave_out_feeds(&mut self) {
+        const PATH: &str = "film.feeds";
+        if self.text(PATH).as_deref() != Some("left-out") {
+            return;
         }
+        let tables = self.reading.bearings.iter_mut();
+        let lists = tables.map(|table| &mut table.grooves);
+        let mut left_out = 0;
+        for list in lists.chain([&mut self.reading.grooves]) {
+            left_out += list.len();
+            list.clear();
+        }
+        if left_out > 0 {
+            let message = format!("the grooves and holes of the study, {left_out}, are left out");
+            let note = self.error_at(PATH, message);
+            self.warnings.push(note);
+        }
+    }
+
+    fn film_model(&self) -> Option<FilmModel> {
+        FilmModel::from_name(&self.text("film.model")?)
     }
 
     fn film_settings(&mut self) -> Option<FilmSettings> {
         let model = self.film_model()?;
+        let compare = self.compared(model);
         if !model.is_field() {
             for path in [
                 "film.grid",
                 "film.linear_solver",
                 "film.relative_error_target",
-                "film.compare",
                 "output.fields",
             ] {
+                let compares_field = compare.contains(&Compared::Model(FilmModel::Field));
+                if compares_field && path == "film.grid" {
+                    continue;
+                }
                 if let Some(entry) = self.entry(path) {
                     let message = format!("`{path}` is not used by the model {}", model.name());
                     let note = self.reading.error(&entry.key_span, message).of_key(path);
@@ -455,9 +484,37 @@ impl Checker<'_> {
             grid,
             linear_solver,
             relative_error_target: self.number("film.relative_error_target"),
-            compare_plain: model.is_field()
-                && matches!(self.value("film.compare"), Some(Value::Words(words)) if words.iter().any(|word| word == "plain")),
+            compare,
+            databases: self.databases.clone(),
         })
+    }
+
+    /// What the study is run once more with; what would compare it with itself is left out, and said.
+    fn compared(&mut self, own: FilmModel) -> Vec<Compared> {
+        const PATH: &str = "film.compare";
+        let Some(Value::Words(words)) = self.value(PATH) else {
+            return Vec::new();
+        };
+        let mut compare = Vec::new();
+        for word in &words {
+            let compared = FilmModel::from_name(word).map_or(Compared::Plain, Compared::Model);
+            let itself = match compared {
+                Compared::Plain if !own.is_field() => format!(
+                    "\"plain\" compares nothing: surfaces and oil of the model {} are plain",
+                    own.name()
+                ),
+                Compared::Model(model) if model == own => {
+                    format!("\"{word}\" compares nothing: it is the study's own film model")
+                }
+                _ => {
+                    compare.push(compared);
+                    continue;
+                }
+            };
+            let note = self.error_at(PATH, itself);
+            self.warnings.push(note);
+        }
+        compare
     }
 
     /// How the film is solved; the paper's method is for its own problem alone.

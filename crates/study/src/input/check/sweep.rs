@@ -179,7 +179,7 @@ impl Checker<'_> {
             for (index, result) in (start..).zip(checked) {
                 match result {
                     Ok(study) => {
-                        film = film.or(Some(study.film));
+                        film = film.or_else(|| Some(study.film.clone()));
                         warnings.add(index, study.warnings);
                         plan.hashes[index] = study.input_hash;
                     }

@@ -14,7 +14,7 @@ globalThis.sommerfeld.parts.push((report) => {
 
   function line(x, y, name, order, extra) {
     return Object.assign({ x, y, name, mode: "lines",
-      line: { color: theme[colours[order % 5]], width: order === 0 ? 1.9 : 1.5, dash: dashes[order % 5], simplify: false },
+      line: { color: theme[colours[order % 5]], width: order === 0 ? 1.9 : 1.5, dash: dashes[(order + Math.floor(order / 5)) % 5], simplify: false },
       hovertemplate: "%{y:.4~g}" }, extra);
   }
 
@@ -88,6 +88,11 @@ globalThis.sommerfeld.parts.push((report) => {
     const figure = curves(traces, yTitle, isCrank ? crankAxis(cycle ? cycle.angle : series[0].x) : axis(xTitle));
     // A loop goes back over its own places: the nearest point is meant, not the column.
     if (xTitle.startsWith("Displaced")) { figure.layout.hovermode = "closest"; }
+    if (xTitle.startsWith("Eccentricity x")) {
+      figure.layout.hovermode = "closest";
+      Object.assign(figure.layout.yaxis, { rangemode: "normal", scaleanchor: "x" });
+    }
+    if (charts[name].y_log) { Object.assign(figure.layout.yaxis, { type: "log", rangemode: "normal", exponentformat: "power", dtick: 1 }); }
     if (range) { figure.layout.yaxis.range = range; }
     if (isAngle) { Object.assign(figure.layout.yaxis, report.angleTicks(report.seam, 90)); }
     return figure;

@@ -1,0 +1,59 @@
+//! One lookup with all derivatives (aim 0.3 us), and a table built (aim 10 s on two cores for 1e-4).
+//!
+//! `cargo bench -p sommerfeld-database`; a word of a name picks cases.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    missing_docs,
+    reason = "a benchmark stops at the first surprise and says what it found"
+)]
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use common::{CONDITIONS, VISCOSITY, state, unit_bearing};
+use criterion::{Criterion, criterion_group, criterion_main};
+use sommerfeld_database::{Recipe, TableFilm, generate};
+use sommerfeld_film::{Cavitation, FilmForce, JournalState, Step};
+use std::hint::black_box;
+use std::sync::Arc;
+use std::time::Instant;
+
+fn lookup(criterion: &mut Criterion) {
+    let bearing = unit_bearing(Cavitation::Gumbel, 0.5);
+    let table = generate(&Recipe::new(Cavitation::Gumbel, 0.5), &(), None).unwrap();
+    let mut film = TableFilm::new(Arc::new(table), &bearing, VISCOSITY).unwrap();
+    let states: Vec<JournalState> = (0..1024).map(|k| state(&bearing, k, 0.999)).collect();
+    let mut next = 0;
+    criterion.bench_function("lookup with derivatives", |bencher| {
+        bencher.iter(|| {
+            next = (next + 1) % states.len();
+            film.linearise(black_box(&states[next]), Step::Steady, &CONDITIONS)
+                .unwrap()
+        });
+    });
+}
+
+/// One build each: they take seconds.
+fn build(_: &mut Criterion) {
+    for closure in [Cavitation::Gumbel, Cavitation::Reynolds] {
+        for target in [1e-3, 1e-4] {
+            let recipe = Recipe {
+                target,
+                ..Recipe::new(closure, 0.5)
+            };
+            let begun = Instant::now();
+            let table = generate(&recipe, &(), None).unwrap();
+            println!(
+                "build {} {target:e}: {:.1} s, nodes {:?}, {:?}",
+                recipe.closure_name(),
+                begun.elapsed().as_secs_f64(),
+                table.axes().counts(),
+                table.errors()
+            );
+        }
+    }
+}
+
+criterion_group!(benches, lookup, build);
+criterion_main!(benches);

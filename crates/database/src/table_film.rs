@@ -1,0 +1,247 @@
+//! What does a table answer to a journal that moves in any way?
+//!
+//! With the effective velocity w, its angle theta from the line of centres and J the turn by 90 degrees
+//! ```text
+//! F = -S D (w + q J w),   S = eta R^3 B / (2 c^3),   D = exp(L), q = +-sinh(m)    (L, m)(eps, |theta|)
+//! dF/dw = -S D [1 + q J + ((w + q J w) L_theta + J w q_theta) (J w)^T / |w|^2]
+//! dF/de = -S D [(w + q J w) (L_eps e^/c - L_theta J e/|e|^2)^T + J w (q_eps e^/c - q_theta J e/|e|^2)^T]
+//! ```
+//! which is homogeneous of degree 1 in w by its form, loses energy everywhere since D > 0, and has exact
+//! derivatives. L and m are splines, twice differentiable; beyond the last eccentricity both go on
+//! linearly in atanh(eps), that is F by a power of the gap. At eps = 0 the film only resists w.
+//! Limits: those of the table; full-width shear, see [`PlainFilm`].
+
+use crate::axis::Axis;
+use crate::direction::Direction;
+use crate::error::DatabaseError;
+use crate::surface::Surface;
+use crate::table::Table;
+use sommerfeld_film::closed_form::PlainFilm;
+use sommerfeld_film::{
+    Bearing, Capabilities, Conditions, Elasticity, Extreme, FilmError, FilmForce, FilmSummary,
+    Finish, JournalState, Linearised, Step,
+};
+use std::sync::Arc;
+
+/// A film looked up in a table.
+#[derive(Debug, Clone)]
+pub struct TableFilm {
+    table: Arc<Table>,
+    film: PlainFilm,
+    eccentricity: Axis,
+    direction: Axis,
+    forces: Surface<2>,
+    figures: Surface<4>,
+}
+
+/// Relative eccentricity below which the direction of the journal from the centre is taken for that of
+/// its motion.
+const CENTRED: f64 = 1e-8;
+
+impl TableFilm {
+    /// Film of `bearing` at one viscosity [Pa s].
+    ///
+    /// # Errors
+    /// [`DatabaseError::Unsupported`] for a bearing with another closure, another inlet, feeds, pressures
+    /// at its ends or in the ruptured film, roughness, elasticity, profiles or film shear other than full
+    /// width; [`DatabaseError::Recipe`] for a width ratio out of the table.
+    pub fn new(
+        table: Arc<Table>,
+        bearing: &Bearing,
+        viscosity: f64,
+    ) -> Result<Self, DatabaseError> {
+        refuse(&table, bearing)?;
+        let film = PlainFilm::new(bearing, viscosity)?;
+        let (forces, figures) = table.slice(bearing.width / bearing.diameter)?;
+        Ok(Self {
+            film,
+            eccentricity: table.axes().eccentricity,
+            direction: table.axes().direction,
+            forces,
+            figures,
+            table,
+        })
+    }
+
+    /// The table it looks up.
+    #[must_use]
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// Position, with a direction where there is none, and effective velocity.
+    fn position_and_motion(&self, state: &JournalState) -> ([f64; 2], [f64; 2]) {
+        let motion = PlainFilm::effective_velocity(state);
+        let mut position = state.position;
+        let smallest = CENTRED * self.film.clearance;
+        if state.eccentricity() < smallest {
+            let speed = motion[0].hypot(motion[1]);
+            position = if speed > 0.0 {
+                motion.map(|w| smallest * w / speed)
+            } else {
+                [smallest, 0.0]
+            };
+        }
+        (position, motion)
+    }
+
+    /// Force and its derivatives by position, at fixed effective velocity, and by effective velocity.
+    fn forces(&self, state: &JournalState) -> ([f64; 2], [[f64; 2]; 2], [[f64; 2]; 2]) {
+        let (position, motion) = self.position_and_motion(state);
+        let distance = position[0].hypot(position[1]);
+        let unit = position.map(|e| e / distance);
+        let eps = distance / self.film.clearance;
+        let speed = motion[0].hypot(motion[1]);
+        // A film at rest answers as if its gap began to close.
+        let way = if speed > 0.0 {
+            motion.map(|w| w / speed)
+        } else {
+            unit
+        };
+        let along = way[0] * unit[0] + way[1] * unit[1];
+        let across = unit[0] * way[1] - unit[1] * way[0];
+        let side = if across < 0.0 { -1.0 } else { 1.0 };
+        let direction = Direction::new(eps, along, across);
+        let (place_e, slope_e) = self.eccentricity.place(eps);
+        let (place_d, slope_d) = self.direction.place(direction.place);
+        let found = self.forces.look(place_e, place_d);
+        let turned_slope = slope_d * direction.by_angle;
+        let moved_slope = slope_d * direction.by_eccentricity;
+        let by_angle = found.by_direction.map(|slope| slope * turned_slope);
+        let by_eps: [f64; 2] = std::array::from_fn(|k| {
+            found.by_eccentricity[k] * slope_e + found.by_direction[k] * moved_slope
+        });
+        let [dissipation, turn] = found.value;
+        let (growth, shrink) = (turn.exp(), (-turn).exp());
+        let (sinh, cosh) = (0.5 * (growth - shrink), 0.5 * (growth + shrink));
+        let film = &self.film;
+        let scale = -0.5
+            * film.viscosity
+            * film.width
+            * (film.radius / film.clearance).powi(3)
+            * dissipation.exp();
+        let quarter = |[x, y]: [f64; 2]| [-y, x];
+        let (turned, beside) = (quarter(way), quarter(unit));
+        let q = side * sinh;
+        // Per unit velocity: the answer, its change per turn of w and per relative eccentricity.
+        let answer: [f64; 2] = std::array::from_fn(|k| way[k] + q * turned[k]);
+        let slope =
+            |l: f64, m: f64| -> [f64; 2] { std::array::from_fn(|k| answer[k] * l + turned[k] * m) };
+        let per_turn = slope(side * by_angle[0], cosh * by_angle[1]);
+        let per_eps = slope(by_eps[0], side * cosh * by_eps[1]);
+        let mut by_velocity = [[0.0; 2]; 2];
+        let mut by_position = [[0.0; 2]; 2];
+        let identity = [[1.0, -q], [q, 1.0]];
+        for row in 0..2 {
+            for column in 0..2 {
+                by_velocity[row][column] =
+                    scale * (identity[row][column] + per_turn[row] * turned[column]);
+                by_position[row][column] = scale
+                    * speed
+                    * (per_eps[row] * unit[column] / film.clearance
+                        - per_turn[row] * beside[column] / distance);
+            }
+        }
+        (
+            answer.map(|share| scale * speed * share),
+            by_position,
+            by_velocity,
+        )
+    }
+}
+
+/// Refuses bearings of which the table says nothing.
+fn refuse(table: &Table, bearing: &Bearing) -> Result<(), DatabaseError> {
+    let recipe = table.recipe();
+    let refusals = [
+        (
+            bearing.cavitation != recipe.closure,
+            "the table was built with another closure: set film.cavitation to the table's, or build one \
+             for this closure",
+        ),
+        (
+            bearing.inlet != recipe.inlet,
+            "the table was built with inlet = \"cyclic\": set it, or use model = \"field\"",
+        ),
+        (
+            !bearing.feeds.is_empty(),
+            "a table knows no grooves and holes: leave them out, or use model = \"field\"",
+        ),
+        (
+            bearing.ambient_pressure != 0.0 || bearing.cavitation_pressure != 0.0,
+            "a table holds films with ambient and cavitation pressure 0: use model = \"field\"",
+        ),
+        (
+            bearing.finish != Finish::Smooth,
+            "a table holds films between smooth surfaces: use model = \"field\"",
+        ),
+        (
+            bearing.elasticity != Elasticity::Rigid,
+            "a table holds films in rigid shells: use model = \"field\"",
+        ),
+    ];
+    match refusals.into_iter().find(|(refused, _)| *refused) {
+        Some((_, reason)) => Err(DatabaseError::Unsupported { reason }),
+        None => Ok(()),
+    }
+}
+
+impl FilmForce for TableFilm {
+    fn capabilities(&self) -> Capabilities {
+        PlainFilm::capabilities()
+    }
+
+    fn minimum_gap(&self, state: &JournalState) -> f64 {
+        self.film.minimum_gap(state)
+    }
+
+    fn linearise(
+        &mut self,
+        state: &JournalState,
+        _step: Step,
+        _conditions: &Conditions<'_>,
+    ) -> Result<Linearised, FilmError> {
+        self.film.check(state)?;
+        let (force, by_position, by_velocity) = self.forces(state);
+        Ok(self.film.answer(state, force, by_position, by_velocity))
+    }
+
+    fn summary(&self) -> FilmSummary {
+        let Some(state) = self.film.last_state() else {
+            return FilmSummary::default();
+        };
+        let (position, motion) = self.position_and_motion(state);
+        let speed = motion[0].hypot(motion[1]);
+        if speed == 0.0 {
+            return self.film.summary(Extreme::default(), 0.0, 0.0);
+        }
+        let distance = position[0].hypot(position[1]);
+        let along = (motion[0] * position[0] + motion[1] * position[1]) / distance;
+        let across = (position[0] * motion[1] - position[1] * motion[0]) / distance;
+        let film = &self.film;
+        let eps = distance / film.clearance;
+        let place = self.eccentricity.place(eps).0;
+        let direction = self
+            .direction
+            .place(Direction::new(eps, along, across).place)
+            .0;
+        let [peak, side_flow, share, angle] = self.figures.look(place, direction).value;
+        let scale = film.viscosity * speed * film.radius.powi(2) / film.clearance.powi(3);
+        let line_of_centres = position[1].atan2(position[0]);
+        let turned = line_of_centres + angle.copysign(across);
+        let peak = Extreme {
+            value: scale * peak.exp(),
+            angle: turned - (turned / std::f64::consts::TAU).round() * std::f64::consts::TAU,
+            axial: 0.0,
+        };
+        film.summary(peak, side_flow * speed * film.radius * film.width, share)
+    }
+
+    fn accept_step(&mut self) {
+        self.film.restart_count();
+    }
+
+    fn reject_step(&mut self) {
+        self.film.restart_count();
+    }
+}

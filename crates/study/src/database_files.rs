@@ -1,0 +1,276 @@
+//! What a user asks of a database file: what is stored in it, what it says of states, how far it errs.
+
+use crate::film_tables::{FilmTable, LookedUp, StoredFilms};
+use sommerfeld_database::contents::{Contents, Value};
+use sommerfeld_database::{CheckReport, DatabaseError};
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// Everything that is stored in a database, for a reader: attributes, then datasets.
+///
+/// # Errors
+/// [`DatabaseError`] where there is no such file, or it is no database, or damaged.
+pub fn info(path: &Path) -> Result<String, DatabaseError> {
+    let scheme = Contents::scheme(path)?;
+    let contents = Contents::read(path, &scheme)?;
+    let mut text = format!("{}\n", path.display());
+    for (name, value) in &contents.attributes {
+        let shown = match value {
+            Value::Text(text) => text.clone(),
+            Value::Integer(number) => number.to_string(),
+            Value::Number(number) => shortest(*number),
+            Value::Numbers(all) => {
+                let all: Vec<String> = all.iter().copied().map(shortest).collect();
+                all.join(", ")
+            }
+        };
+        // Writing into a String cannot fail.
+        let _ = writeln!(text, "  {name:<28} {shown}");
+    }
+    text += "datasets\n";
+    for (name, array) in &contents.arrays {
+        let shape: Vec<String> = array.shape.iter().map(usize::to_string).collect();
+        let unit = match array.unit.as_str() {
+            "1" => "-",
+            unit => unit,
+        };
+        let name = format!("{name}[{unit}]");
+        let _ = writeln!(
+            text,
+            "  {name:<28} {:<14} {}",
+            shape.join(" x "),
+            array.meaning
+        );
+    }
+    Ok(text)
+}
+
+fn shortest(number: f64) -> String {
+    match number.abs() {
+        1e-3..1e6 => number.to_string(),
+        0.0 => "0".to_owned(),
+        _ => format!("{number:e}"),
+    }
+}
+
+/// How far a database is from films solved anew.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileCheck {
+    /// What the states show.
+    pub report: CheckReport,
+    /// Error that the database was built for, which no state may exceed.
+    pub bound: f64,
+    /// Largest error that the file states.
+    pub stated: f64,
+}
+
+impl FileCheck {
+    /// No state errs by more than the database was built for, and no film makes power.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        self.report.maximum <= self.bound && self.report.dissipation_minimum >= 0.0
+    }
+}
+
+/// Holds a database against films solved for states drawn anew from a seed.
+///
+/// # Errors
+/// [`DatabaseError`] where the file cannot be used or a film cannot be solved.
+pub fn check(path: &Path, samples: usize, seed: u64) -> Result<FileCheck, DatabaseError> {
+    let stored = StoredFilms::load(&path.to_string_lossy(), path)?;
+    match &stored.table {
+        FilmTable::Combined(table) => Ok(FileCheck {
+            report: sommerfeld_database::check(table, samples, seed)?,
+            bound: table.recipe().target,
+            stated: table.errors().maximum,
+        }),
+        FilmTable::Superposition(_) => Err(DatabaseError::Unsupported {
+            reason: "a database of the scheme superposition was measured when it was built: \
+                     `sommerfeld database info` prints its errors",
+        }),
+    }
+}
+
+/// A bearing with its oil, for answers in SI.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scales {
+    /// Bore diameter, m.
+    pub diameter: f64,
+    /// Bearing width, m.
+    pub width: f64,
+    /// Radial clearance, m.
+    pub radial_clearance: f64,
+    /// Dynamic viscosity, Pa s.
+    pub viscosity: f64,
+    /// Journal plus shell speed minus twice the turning rate of the line of centres, rad/s.
+    pub effective_speed: f64,
+    /// Rate of the relative eccentricity, 1/s.
+    pub eccentricity_rate: f64,
+}
+
+/// A state to be looked up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State {
+    /// Width over diameter.
+    pub width_ratio: f64,
+    /// Relative eccentricity.
+    pub eccentricity: f64,
+    /// Angle of the effective velocity from the line of centres, rad.
+    pub angle: f64,
+}
+
+impl Scales {
+    /// Effective velocity of the journal centre along and across the line of centres, m/s.
+    #[must_use]
+    pub fn velocity(&self, eccentricity: f64) -> [f64; 2] {
+        let c = self.radial_clearance;
+        [
+            c * self.eccentricity_rate,
+            -0.5 * c * eccentricity * self.effective_speed,
+        ]
+    }
+
+    /// The state that a journal at this eccentricity is in.
+    #[must_use]
+    pub fn state(&self, eccentricity: f64) -> State {
+        let [along, across] = self.velocity(eccentricity);
+        State {
+            width_ratio: self.width / self.diameter,
+            eccentricity,
+            angle: across.atan2(along),
+        }
+    }
+}
+
+/// What a database says of a state, as names, values and units.
+#[must_use]
+pub fn answer_rows(found: &LookedUp) -> Vec<(&'static str, f64, &'static str)> {
+    vec![
+        ("force_along", found.force[0], "-"),
+        ("force_across", found.force[1], "-"),
+        ("force_along_by_eccentricity", found.by_eccentricity[0], "-"),
+        (
+            "force_across_by_eccentricity",
+            found.by_eccentricity[1],
+            "-",
+        ),
+        ("force_along_by_direction", found.by_angle[0], "1/rad"),
+        ("force_across_by_direction", found.by_angle[1], "1/rad"),
+        ("moment_along", 0.0, "-"),
+        ("moment_across", 0.0, "-"),
+        ("peak_pressure", found.peak_pressure, "-"),
+        ("peak_angle", found.peak_angle.to_degrees(), "deg"),
+        ("side_flow_each_end", found.side_flow, "-"),
+        ("full_film_share", found.full_film_share, "-"),
+    ]
+}
+
+/// The same in SI, for a bearing of these sizes at this eccentricity.
+#[must_use]
+pub fn dimensional_rows(
+    found: &LookedUp,
+    scales: &Scales,
+    eccentricity: f64,
+) -> Vec<(&'static str, f64, &'static str)> {
+    let [along, across] = scales.velocity(eccentricity);
+    let speed = along.hypot(across);
+    let (radius, c) = (0.5 * scales.diameter, scales.radial_clearance);
+    let per_velocity = scales.viscosity * radius.powi(3) * scales.width / (2.0 * c.powi(3));
+    let force = per_velocity * speed;
+    let pressure = scales.viscosity * speed * radius.powi(2) / c.powi(3);
+    // Per component of the velocity, from size and angle of w.
+    let unit = if speed > 0.0 {
+        [along / speed, across / speed]
+    } else {
+        [1.0, 0.0]
+    };
+    let damping = |row: usize, column: usize| {
+        let turned = [-unit[1], unit[0]];
+        -per_velocity * (found.force[row] * unit[column] + found.by_angle[row] * turned[column])
+    };
+    vec![
+        ("force_along", force * found.force[0], "N"),
+        ("force_across", force * found.force[1], "N"),
+        ("damping_along_along", damping(0, 0), "N s/m"),
+        ("damping_along_across", damping(0, 1), "N s/m"),
+        ("damping_across_along", damping(1, 0), "N s/m"),
+        ("damping_across_across", damping(1, 1), "N s/m"),
+        ("moment_along", 0.0, "N m"),
+        ("moment_across", 0.0, "N m"),
+        ("peak_pressure", pressure * found.peak_pressure, "Pa"),
+        (
+            "side_flow_each_end",
+            speed * radius * scales.width * found.side_flow,
+            "m3/s",
+        ),
+    ]
+}
+
+/// Looks up every row of a table of states (`eccentricity[-],direction[deg]`, and `width_ratio[-]` where
+/// the database holds several) and returns the table with what it says.
+///
+/// # Errors
+/// What is wrong with the table, in words with its line.
+pub fn look_up_table(stored: &StoredFilms, text: &str) -> Result<String, String> {
+    let [narrow, wide] = stored.facts().width_ratios;
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .from_reader(text.as_bytes());
+    let header = reader.headers().map_err(|error| error.to_string())?.clone();
+    let column = |name: &str| header.iter().position(|column| column == name);
+    let needed =
+        |name: &str| column(name).ok_or_else(|| format!("line 1: the column {name} is missing"));
+    let (eccentricity, direction) = (needed("eccentricity[-]")?, needed("direction[deg]")?);
+    let ratio = column("width_ratio[-]");
+    if ratio.is_none() && narrow != wide {
+        return Err(
+            "line 1: the column width_ratio[-] is missing: the database holds several".to_owned(),
+        );
+    }
+    let mut table = String::new();
+    for record in reader.records() {
+        let record = record.map_err(|error| error.to_string())?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let number = |at: usize| {
+            let cell = record.get(at).unwrap_or_default();
+            let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+            number.ok_or_else(|| format!("line {line}: {cell} is no number"))
+        };
+        let state = State {
+            width_ratio: ratio.map_or(Ok(narrow), number)?,
+            eccentricity: number(eccentricity)?,
+            angle: number(direction)?.to_radians(),
+        };
+        let found = look_up(stored, &state).map_err(|error| format!("line {line}: {error}"))?;
+        let rows = answer_rows(&found);
+        if table.is_empty() {
+            let names = rows.iter().map(|(name, _, unit)| format!("{name}[{unit}]"));
+            let names: Vec<String> = header.iter().map(str::to_owned).chain(names).collect();
+            table = names.join(",") + "\n";
+        }
+        let values = rows.iter().map(|(_, value, _)| format!("{value:?}"));
+        let cells: Vec<String> = record.iter().map(str::to_owned).chain(values).collect();
+        table += &(cells.join(",") + "\n");
+    }
+    if table.is_empty() {
+        return Err("the table has no rows".to_owned());
+    }
+    Ok(table)
+}
+
+/// What a database says of a state.
+///
+/// # Errors
+/// What it does not hold, in words.
+pub fn look_up(stored: &StoredFilms, state: &State) -> Result<LookedUp, String> {
+    if !(0.0..1.0).contains(&state.eccentricity) {
+        return Err(format!(
+            "the relative eccentricity {} is out of range: from 0 to below 1",
+            state.eccentricity
+        ));
+    }
+    stored
+        .look(state.width_ratio, state.eccentricity, state.angle)
+        .map_err(|error| error.to_string())
+}
