@@ -23,7 +23,7 @@ pub enum DatabaseCommand {
         file: PathBuf,
     },
     /// Print what a database says of a state, or of every row of a table
-    Lookup(LookupArguments),
+    Lookup(Box<LookupArguments>),
     /// Hold a database against films solved for states drawn anew; exit 1 where one errs by more than the
     /// target that the database was built for
     Check {

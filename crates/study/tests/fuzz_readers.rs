@@ -12,7 +12,7 @@
     missing_docs
 )]
 
-use sommerfeld_study::input::{Duty, KEYS, Machine, MachinePlan, Study, Subject};
+use sommerfeld_study::input::{DatabasePlan, Duty, KEYS, Machine, MachinePlan, Study, Subject};
 use sommerfeld_study::load_study;
 use sommerfeld_study::templates::TEMPLATES;
 use std::env;
@@ -309,6 +309,18 @@ fn is_finite(study: &Study) -> bool {
         }
         Subject::Bearing(case) => case,
         Subject::Machine(plan) => return is_finite_machine(plan),
+        Subject::Database(DatabasePlan::Combined(recipe)) => {
+            return recipe.check().is_ok() && recipe.target > 0.0 && recipe.target.is_finite();
+        }
+        Subject::Database(DatabasePlan::Superposition { recipe, target }) => {
+            let [first, last] = recipe.eccentricities;
+            return recipe.d_over_b > 0.0
+                && recipe.d_over_b.is_finite()
+                && (0.0..1.0).contains(&first)
+                && (first..1.0).contains(&last)
+                && *target > 0.0
+                && target.is_finite();
+        }
         // Its cases are studies that are checked one by one.
         Subject::Sweep(_) => return true,
     };
