@@ -309,18 +309,7 @@ fn is_finite(study: &Study) -> bool {
         }
         Subject::Bearing(case) => case,
         Subject::Machine(plan) => return is_finite_machine(plan),
-        Subject::Database(DatabasePlan::Combined(recipe)) => {
-            return recipe.check().is_ok() && recipe.target > 0.0 && recipe.target.is_finite();
-        }
-        Subject::Database(DatabasePlan::Superposition { recipe, target }) => {
-            let [first, last] = recipe.eccentricities;
-            return recipe.d_over_b > 0.0
-                && recipe.d_over_b.is_finite()
-                && (0.0..1.0).contains(&first)
-                && (first..1.0).contains(&last)
-                && *target > 0.0
-                && target.is_finite();
-        }
+        Subject::Database(plan) => return is_finite_database(plan),
         // Its cases are studies that are checked one by one.
         Subject::Sweep(_) => return true,
     };
@@ -342,6 +331,22 @@ fn is_finite(study: &Study) -> bool {
         && viscosity > 0.0
         && viscosity.is_finite()
         && f64::is_finite(loads)
+}
+
+/// Every number that a database would be built from is one.
+fn is_finite_database(plan: &DatabasePlan) -> bool {
+    match plan {
+        DatabasePlan::Combined(recipe) => recipe.check().is_ok() && recipe.target.is_finite(),
+        DatabasePlan::Superposition { recipe, target } => {
+            let [first, last] = recipe.eccentricities;
+            recipe.d_over_b > 0.0
+                && recipe.d_over_b.is_finite()
+                && (0.0..1.0).contains(&first)
+                && (first..1.0).contains(&last)
+                && *target > 0.0
+                && target.is_finite()
+        }
+    }
 }
 
 /// Every bearing, mass and pressure of a machine is a number that a run can use.
