@@ -2,6 +2,7 @@
 
 use crate::film_tables::{FilmTable, LookedUp, StoredFilms};
 use sommerfeld_database::contents::{Contents, Value};
+use sommerfeld_database::superposition::{Accuracy, Drive, SuperpositionTable};
 use sommerfeld_database::{CheckReport, DatabaseError};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -55,7 +56,16 @@ fn shortest(number: f64) -> String {
 
 /// How far a database is from films solved anew.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FileCheck {
+pub enum FileCheck {
+    /// Of a table of wedge and squeeze together.
+    Combined(CombinedCheck),
+    /// Of tables of wedge and squeeze apart: each against its own films, not against their sum.
+    Superposition(Vec<SuperposedCheck>),
+}
+
+/// How far a table of wedge and squeeze together is from films solved anew.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CombinedCheck {
     /// What the states show.
     pub report: CheckReport,
     /// Error that the database was built for, which no state may exceed.
@@ -64,31 +74,67 @@ pub struct FileCheck {
     pub stated: f64,
 }
 
+/// How far the table of one drive is from films solved anew.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SuperposedCheck {
+    /// What drives the film.
+    pub drive: Drive,
+    /// What the states show.
+    pub found: Accuracy,
+    /// What the file states.
+    pub stated: Accuracy,
+}
+
 impl FileCheck {
-    /// No state errs by more than the database was built for, and no film makes power.
+    /// Wedge and squeeze together: no state errs by more than the database was built for, and no film makes
+    /// power. Apart: none errs by more than the file states.
     #[must_use]
     pub fn is_kept(&self) -> bool {
-        self.report.maximum <= self.bound && self.report.dissipation_minimum >= 0.0
+        match self {
+            Self::Combined(CombinedCheck { report, bound, .. }) => {
+                report.maximum <= *bound && report.dissipation_minimum >= 0.0
+            }
+            Self::Superposition(drives) => drives
+                .iter()
+                .all(|drive| drive.found.largest <= drive.stated.largest),
+        }
     }
 }
 
-/// Holds a database against films solved for states drawn anew from a seed.
+/// Holds a database against films solved for states drawn anew from a seed; of the scheme superposition so
+/// many for each of its three drives.
 ///
 /// # Errors
 /// [`DatabaseError`] where the file cannot be used or a film cannot be solved.
 pub fn check(path: &Path, samples: usize, seed: u64) -> Result<FileCheck, DatabaseError> {
     let stored = StoredFilms::load(&path.to_string_lossy(), path)?;
     match &stored.table {
-        FilmTable::Combined(table) => Ok(FileCheck {
+        FilmTable::Combined(table) => Ok(FileCheck::Combined(CombinedCheck {
             report: sommerfeld_database::check(table, samples, seed)?,
             bound: table.recipe().target,
             stated: table.errors().maximum,
-        }),
-        FilmTable::Superposition(_) => Err(DatabaseError::Unsupported {
-            reason: "a database of the scheme superposition was measured when it was built: \
-                     `sommerfeld database info` prints its errors",
-        }),
+        })),
+        FilmTable::Superposition(table) => {
+            Ok(FileCheck::Superposition(check_apart(table, samples, seed)?))
+        }
     }
+}
+
+fn check_apart(
+    table: &SuperpositionTable,
+    samples: usize,
+    seed: u64,
+) -> Result<Vec<SuperposedCheck>, DatabaseError> {
+    let found = table.check(samples, seed, &mut |_, _| true)?;
+    let both = found.into_iter().zip(*table.accuracy());
+    let drives = Drive::ALL.into_iter().zip(both);
+    Ok(drives
+        .map(|(drive, (found, stated))| SuperposedCheck {
+            drive,
+            found,
+            stated,
+        })
+        .collect())
 }
 
 /// A bearing with its oil, for answers in SI.

@@ -30,7 +30,7 @@ pub(crate) fn refusal(
     if model.is_field() {
         return None;
     }
-    if !stays_aligned(&case.duty) {
+    if !stays_aligned(&case.duty) && !model.tilts(case.bearing.cavitation) {
         return Some("it has no tilt".to_owned());
     }
     refusal_of_bearing(model, &case.bearing, settings)

@@ -356,6 +356,16 @@ impl FilmModel {
         matches!(self, Self::Field)
     }
 
+    /// It answers to tilt where the ruptured film is closed this way.
+    #[must_use]
+    pub const fn tilts(self, closure: Cavitation) -> bool {
+        match self {
+            Self::Field => true,
+            Self::Online => matches!(closure, Cavitation::Gumbel),
+            _ => false,
+        }
+    }
+
     /// It is looked up in a database.
     #[must_use]
     pub const fn is_looked_up(self) -> bool {

@@ -24,7 +24,10 @@ pub(super) fn film_of(
         FilmModel::ShortBearing => Box::new(ShortBearingFilm::new(bearing, viscosity)?),
         FilmModel::Mobility => Box::new(MobilityFilm::new(bearing, viscosity)?),
         FilmModel::LongBearing => Box::new(LongBearingFilm::new(bearing, viscosity)?),
-        FilmModel::Online => Box::new(OnlineFilm::aligned(bearing, &at_ambient(oil))?),
+        FilmModel::Online if stays_aligned(&case.duty) => {
+            Box::new(OnlineFilm::aligned(bearing, &at_ambient(oil))?)
+        }
+        FilmModel::Online => Box::new(OnlineFilm::new(bearing, &at_ambient(oil))?),
         FilmModel::Database | FilmModel::Superposition => {
             // The reasons were told when the study was checked.
             let unfit = FilmError::Unsupported {

@@ -170,7 +170,7 @@ impl Checker<'_> {
 
     /// Tilt and moments need the field.
     fn refuse_tilt_of_closed_form(&mut self) {
-        let Some(model) = self.film_model().filter(|model| !model.is_field()) else {
+        let Some(model) = self.model_without_tilt() else {
             return;
         };
         for path in ["operation.tilt", "operation.tilt_rate", "operation.moment"] {
@@ -180,7 +180,7 @@ impl Checker<'_> {
                 let message = format!("the model {} has no tilt", model.name());
                 let error = self
                     .error_at(path, message)
-                    .hinting("use model = \"field\"");
+                    .hinting("use model = \"field\", or \"online\" with cavitation = \"gumbel\"");
                 self.errors.push(error);
             }
         }
@@ -296,7 +296,7 @@ impl Checker<'_> {
             CycleTilt::Free => "moment",
             CycleTilt::Prescribed(_) => "tilt",
         };
-        if self.film_model().is_some_and(|model| !model.is_field()) {
+        if self.model_without_tilt().is_some() {
             let message = format!("the load table gives {what}s, the film model has no tilt");
             let error = self.error_at("load_cycle.file", message).hinting(format!(
                 "use model = \"field\" or take the {what} columns out"

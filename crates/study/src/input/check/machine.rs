@@ -93,7 +93,7 @@ impl Checker<'_> {
 
     /// A film in closed form has no tilt: an elastic shaft tilts in its bearings.
     pub(super) fn refuse_elastic_closed_form(&mut self, model_key: &str) {
-        let Some(model) = self.film_model().filter(|model| !model.is_field()) else {
+        let Some(model) = self.model_without_tilt() else {
             return;
         };
         let message = format!(

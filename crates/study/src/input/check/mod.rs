@@ -33,6 +33,7 @@ use super::values::{Value, default_value, not_built};
 use crate::film_tables::StoredFilms;
 use grooves::DrillingKeys;
 use sommerfeld_bearing::PressureCycle;
+use sommerfeld_film::Cavitation;
 use sommerfeld_film::vogelpohl;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -444,6 +445,16 @@ impl Checker<'_> {
 
     fn film_model(&self) -> Option<FilmModel> {
         FilmModel::from_name(&self.text("film.model")?)
+    }
+
+    /// The film model, where its journal cannot tilt.
+    fn model_without_tilt(&self) -> Option<FilmModel> {
+        let model = self.film_model()?;
+        let closure = match self.text("film.cavitation")?.as_str() {
+            "reynolds" => Cavitation::Reynolds,
+            _ => Cavitation::Gumbel,
+        };
+        (!model.tilts(closure)).then_some(model)
     }
 
     fn film_settings(&mut self) -> Option<FilmSettings> {
