@@ -2,23 +2,24 @@
 //!
 //! ```text
 //! -(H^3 p_theta)_theta - (D/B)^2 (H^3 p_Z)_Z = (w + Z w') . n,    H = 1 - (e + Z s) . n
-//! F = -int int max(p, 0) (n, Z n) dtheta dZ,    n = (cos(theta), sin(theta)),  |Z| < 1
+//! F = -int int max(p, 0) (n, Z n) dtheta dZ,    p = u/H^2,    n = (cos(theta), sin(theta)),  |Z| < 1
 //! ```
 //! with the centre e over c in the mid-plane and its change s to the rear end, w and w' their effective
-//! velocities. Shapes (1 - Z^2) P_k of both parities across the width, which H^3, cubic in Z, couples;
-//! around the bearing elements of high degree, crowded where either end is narrow (`layout`).
+//! velocities. Shapes (1 - Z^2) P_k of both parities across the width for u, not for p: across a wedge the
+//! short bearing has p = const (1 - Z^2)/H^2 exactly, which polynomials alone follow slowly near a narrow
+//! end. Elements of high degree around, crowded where either end is narrow (`layout`).
 //! The form is symmetric and positive: Cholesky, no pivots. Along each line of Gauss points what is
 //! positive of the polynomials is integrated up to their zeros (`positive`).
-//! Derivatives are those of the discrete force, by its adjoint: four further solutions give those by
+//! Derivatives are those of the discrete force, by its adjoint: one further solution gives those by
 //! motion, position and tilt, the shift of the elements included; the zeros do not count, as pressure
-//! is zero there.
+//! is zero there (`tangents`).
 //! Pressures over 12 eta R^2/c^2, 1/s; motion over c, 1/s; shell frame.
 //! References: L. Gumbel, Monatsbl. Berl. Bez. VDI (1914) 87; A. T. Patera, J. Comput. Phys. 54 (1984)
 //! 468 (elements of high degree).
 
-use super::profile::ProfileMatrix;
-use layout::Layout;
-use positive::ElementRule;
+use super::profile::{Block, ProfileMatrix};
+use layout::{Layout, Span};
+use positive::{ElementRule, Sums};
 use widthwise::Widthwise;
 
 mod figures;
@@ -48,59 +49,65 @@ pub(super) struct TiltedForce {
     pub by_motion: [Place; 4],
 }
 
-/// Half film of a tilted journal on `M` shapes.
+/// Half film of a tilted journal on `M` shapes and `G` lines across the width.
 #[derive(Debug, Clone)]
-pub(super) struct TiltedFilm<const M: usize> {
+pub(super) struct TiltedFilm<const M: usize, const G: usize> {
     /// (D/B)^2.
     aspect: f64,
-    across: Widthwise<M>,
+    across: Widthwise<M, G>,
     rule: ElementRule,
     layout: Layout,
     matrix: ProfileMatrix<M>,
-    /// Source of the motion, then pressure by unknown.
+    /// Source of the motion, then u by unknown.
     answer: Vec<[f64; 1]>,
     /// Loads of the four forces, then their adjoints.
     adjoints: Vec<[f64; 4]>,
-    /// Pressure on the lines, by node.
-    lines: Vec<f64>,
-    /// What the positive part of each element gives by its shift.
-    shifts: Vec<Shift>,
+    /// u on the lines, by node.
+    lines: Vec<[f64; G]>,
+    /// What the positive part of each element gives.
+    sums: Vec<Sums>,
     place: Place,
     motion: Place,
-    /// Positive arc over all lines, rad.
-    wetted: f64,
 }
 
-/// Integrals over the positive part of an element, with weights 1 and Z, of `p n` and of `p n xi`.
-#[derive(Debug, Clone, Copy, Default)]
-struct Shift {
-    whole: Place,
-    moved: Place,
+/// The gap at an angle: in the mid-plane and its change to the rear end, and the same of its slope.
+#[derive(Debug, Clone, Copy)]
+struct Gap {
+    height: [f64; 2],
+    slope: [f64; 2],
 }
 
-impl<const M: usize> TiltedFilm<M> {
+/// Products of shapes over the width at one angle.
+struct Products<const M: usize> {
+    /// `int psi psi/H`.
+    plain: Block<M>,
+    /// `int psi psi H_theta/H^2`.
+    sloped: Block<M>,
+    /// Of all that goes with u u alone.
+    own: Block<M>,
+}
+
+impl<const M: usize, const G: usize> TiltedFilm<M, G> {
     /// For a film of this D/B on so many elements around.
-    pub(super) fn new(d_over_b: f64, elements: usize, lines: usize) -> Self {
+    pub(super) fn new(d_over_b: f64, elements: usize) -> Self {
         let nodes = elements * DEGREE;
         // The seam comes last: it alone reaches back to the first element.
         let mut starts: Vec<usize> = (0..nodes)
             .map(|node| (node / DEGREE * DEGREE).saturating_sub(1))
             .collect();
         starts[nodes - 1] = 0;
-        let across = Widthwise::new(lines);
         Self {
             aspect: d_over_b * d_over_b,
+            across: Widthwise::new(),
             rule: ElementRule::new(),
             layout: Layout::new(elements),
             matrix: ProfileMatrix::new(starts),
             answer: vec![[0.0]; nodes * M],
             adjoints: vec![[0.0; 4]; nodes * M],
-            lines: vec![0.0; nodes * lines],
-            across,
-            shifts: vec![Shift::default(); elements],
+            lines: vec![[0.0; G]; nodes],
+            sums: vec![Sums::default(); elements],
             place: [0.0; 4],
             motion: [0.0; 4],
-            wetted: 0.0,
         }
     }
 
@@ -114,11 +121,9 @@ impl<const M: usize> TiltedFilm<M> {
         }
         self.matrix.solve(&mut self.answer);
         self.spread_on_lines();
-        let force = self.load_positive();
+        self.load_positive();
         self.matrix.solve(&mut self.adjoints);
-        let mut found = self.tangents();
-        found.force = force.map(|part| -part);
-        Some(found)
+        Some(self.answer_with_tangents())
     }
 
     /// Unknown of a node of an element.
@@ -130,96 +135,173 @@ impl<const M: usize> TiltedFilm<M> {
     fn assemble(&mut self) {
         self.matrix.clear();
         self.answer.fill([0.0]);
-        let (rule, across) = (&self.rule, &self.across);
         for e in 0..self.layout.count() {
-            let span = self.layout.span(e);
-            let cubes: [[f64; 4]; NODES] =
-                std::array::from_fn(|i| cubed(gap_at(&self.place, span.trig[i])));
+            let span = *self.layout.span(e);
             let nodes: [usize; NODES] = std::array::from_fn(|i| self.node(e, i));
+            let products: [Products<M>; NODES] = std::array::from_fn(|i| self.products(&span, i));
             for a in 0..NODES {
                 for b in a..NODES {
-                    let mut parts = [0.0; 4];
-                    for i in 0..NODES {
-                        let weight = rule.weights[i] * rule.slopes[i][a] * rule.slopes[i][b];
-                        for k in 0..4 {
-                            parts[k] += weight * cubes[i][k];
-                        }
-                    }
-                    let parts = parts.map(|part| part / span.width);
                     let (row, column) = (nodes[a].min(nodes[b]), nodes[a].max(nodes[b]));
-                    across.mass.add_to(parts, self.matrix.block(row, column));
+                    self.couple([a, b], &span, &products, [row, column]);
                 }
-                let weight = rule.weights[a] * span.width;
-                let parts = cubes[a].map(|part| self.aspect * weight * part);
-                across
-                    .stiffness
-                    .add_to(parts, self.matrix.block(nodes[a], nodes[a]));
-                let [rigid, turning] = split(&self.motion, span.trig[a]);
-                let own = &mut self.answer[nodes[a] * M..][..M];
-                for (m, [right]) in own.iter_mut().enumerate() {
-                    let [even, odd] = across.integrals[m];
-                    *right += weight * (rigid * even + turning * odd);
+                self.add_source(&span, a, nodes[a]);
+            }
+        }
+    }
+
+    /// Products over the width at a node.
+    fn products(&self, span: &Span, node: usize) -> Products<M> {
+        let gap = Gap::at(&self.place, span.trig[node]);
+        let zero = [[0.0; M]; M];
+        let (mut plain, mut sloped, mut own) = (zero, zero, zero);
+        for line in &self.across.lines {
+            let [height, slope] = gap.on(line.place);
+            let inverse = 1.0 / height;
+            let (around, along) = (slope * inverse, gap.height[1] * inverse);
+            let weight = line.weight * inverse;
+            let bent: [f64; M] =
+                std::array::from_fn(|m| line.slopes[m] - 2.0 * along * line.values[m]);
+            for m in 0..M {
+                let by_value = weight * line.values[m];
+                let by_slope = around * by_value;
+                let by_both = 4.0 * around * by_slope;
+                let by_bent = self.aspect * weight * bent[m];
+                for n in 0..M {
+                    plain[m][n] += by_value * line.values[n];
+                    sloped[m][n] += by_slope * line.values[n];
+                    own[m][n] += by_both * line.values[n] + by_bent * bent[n];
                 }
+            }
+        }
+        Products { plain, sloped, own }
+    }
+
+    /// Adds what two nodes of an element have in common.
+    fn couple(
+        &mut self,
+        [a, b]: [usize; 2],
+        span: &Span,
+        products: &[Products<M>; NODES],
+        [row, column]: [usize; 2],
+    ) {
+        let rule = &self.rule;
+        let mut sum = [[0.0; M]; M];
+        for (i, product) in products.iter().enumerate() {
+            let weight = rule.weights[i] * rule.slopes[i][a] * rule.slopes[i][b] / span.width;
+            add(weight, &product.plain, &mut sum);
+        }
+        add(
+            -2.0 * rule.weights[b] * rule.slopes[b][a],
+            &products[b].sloped,
+            &mut sum,
+        );
+        add(
+            -2.0 * rule.weights[a] * rule.slopes[a][b],
+            &products[a].sloped,
+            &mut sum,
+        );
+        if a == b {
+            add(rule.weights[a] * span.width, &products[a].own, &mut sum);
+        }
+        add(1.0, &sum, self.matrix.block(row, column));
+    }
+
+    fn add_source(&mut self, span: &Span, i: usize, node: usize) {
+        let gap = Gap::at(&self.place, span.trig[i]);
+        let [rigid, turning] = split(&self.motion, span.trig[i]);
+        let weight = self.rule.weights[i] * span.width;
+        let own = &mut self.answer[node * M..][..M];
+        for line in &self.across.lines {
+            let [height, _] = gap.on(line.place);
+            let drive = rigid + turning * line.place;
+            let part = weight * line.weight * drive / (height * height);
+            for ([right], value) in own.iter_mut().zip(&line.values) {
+                *right += part * value;
             }
         }
     }
 
     fn spread_on_lines(&mut self) {
-        let count = self.across.lines.len();
         let (nodes, _) = self.answer.as_chunks::<M>();
-        for (values, own) in nodes.iter().zip(self.lines.chunks_exact_mut(count)) {
-            for (line, pressure) in self.across.lines.iter().zip(own) {
-                *pressure = (0..M).map(|m| values[m][0] * line.values[m]).sum();
+        for (values, own) in nodes.iter().zip(&mut self.lines) {
+            for (line, u) in self.across.lines.iter().zip(own) {
+                *u = (0..M).map(|m| values[m][0] * line.values[m]).sum();
             }
         }
     }
 
-    /// Integrals of the positive pressure, with what they are per pressure of each unknown.
-    fn load_positive(&mut self) -> Place {
-        let count = self.across.lines.len();
-        let mut force = [0.0; 4];
+    /// Integrals of the positive pressure, with what they are per u of each unknown.
+    fn load_positive(&mut self) {
         self.adjoints.fill([0.0; 4]);
-        self.wetted = 0.0;
         for e in 0..self.layout.count() {
             let span = *self.layout.span(e);
             let nodes: [usize; NODES] = std::array::from_fn(|i| self.node(e, i));
-            let mut shift = Shift::default();
+            let gaps: [Gap; NODES] = std::array::from_fn(|i| Gap::at(&self.place, span.trig[i]));
+            let mut sums = Sums::default();
             for (g, line) in self.across.lines.iter().enumerate() {
-                let values = nodes.map(|node| self.lines[node * count + g]);
-                let Some(part) = self.rule.positive(&values, &span) else {
-                    continue;
+                let values = nodes.map(|node| self.lines[node][g]);
+                let mut loads = [[0.0; 4]; NODES];
+                let mut load = |i: usize, load: [f64; 4], share: f64| {
+                    for r in 0..4 {
+                        loads[i][r] += share * span.width * load[r];
+                    }
                 };
-                self.wetted += line.weight * part.length * span.width;
-                let lever = line.weight * line.place;
+                if values.iter().all(|value| *value < 0.0) {
+                    continue;
+                }
+                if values.iter().all(|value| *value >= 0.0) {
+                    for i in 0..NODES {
+                        let weight = self.rule.weights[i] * line.weight;
+                        let point = [self.rule.places[i], line.place, weight];
+                        let of = sums.add(point, values[i], span.trig[i], &gaps[i]);
+                        load(i, of, 1.0);
+                    }
+                } else {
+                    self.rule.stretches(&values, |xi, weight| {
+                        let (sin, cos) = (span.start + span.width * xi).sin_cos();
+                        let basis = self.rule.basis(xi);
+                        let value = basis.iter().zip(values).map(|(b, v)| b * v).sum();
+                        let gap = Gap::at(&self.place, [cos, sin]);
+                        let point = [xi, line.place, weight * line.weight];
+                        let of = sums.add(point, value, [cos, sin], &gap);
+                        for (i, share) in basis.into_iter().enumerate() {
+                            load(i, of, share);
+                        }
+                    });
+                }
                 for i in 0..NODES {
-                    let [x, y] = part.loads[i].map(|load| load * span.width);
-                    let load = [line.weight * x, line.weight * y, lever * x, lever * y];
                     let own = &mut self.adjoints[nodes[i] * M..][..M];
                     for (side, value) in own.iter_mut().zip(&line.values) {
                         for r in 0..4 {
-                            side[r] += value * load[r];
+                            side[r] += value * loads[i][r];
                         }
                     }
                 }
-                for r in 0..4 {
-                    let weight = if r < 2 { line.weight } else { lever };
-                    shift.whole[r] += weight * part.whole[r % 2];
-                    shift.moved[r] += weight * part.moved[r % 2];
-                }
             }
-            for r in 0..4 {
-                force[r] += span.width * shift.whole[r];
-            }
-            self.shifts[e] = shift;
+            self.sums[e] = sums;
         }
-        force
     }
 }
 
-/// `1 - e . n` and `-s . n`: H where n has these components, and its change to the rear end.
-fn gap_at(place: &Place, trig: [f64; 2]) -> [f64; 2] {
-    let [middle, change] = split(place, trig);
-    [1.0 - middle, -change]
+impl Gap {
+    fn at(place: &Place, trig: [f64; 2]) -> Self {
+        let [cos, sin] = trig;
+        let [middle, change] = split(place, trig);
+        let [bend, bend_change] = split(place, [-sin, cos]);
+        Self {
+            height: [1.0 - middle, -change],
+            slope: [-bend, -bend_change],
+        }
+    }
+
+    /// H and H_theta at Z.
+    #[inline]
+    fn on(&self, z: f64) -> [f64; 2] {
+        [
+            self.height[0] + z * self.height[1],
+            self.slope[0] + z * self.slope[1],
+        ]
+    }
 }
 
 /// What a place or motion has along n in the mid-plane, and its change to the rear end.
@@ -227,13 +309,84 @@ fn split([x, y, to_x, to_y]: &Place, [cos, sin]: [f64; 2]) -> [f64; 2] {
     [x * cos + y * sin, to_x * cos + to_y * sin]
 }
 
-/// Coefficients of H^3 by powers of Z.
-fn cubed([middle, change]: [f64; 2]) -> [f64; 4] {
-    let (square, other) = (middle * middle, change * change);
-    [
-        square * middle,
-        3.0 * square * change,
-        3.0 * middle * other,
-        other * change,
-    ]
+#[inline]
+fn add<const M: usize>(factor: f64, block: &Block<M>, sum: &mut Block<M>) {
+    for (row, own) in sum.iter_mut().zip(block) {
+        for (part, value) in row.iter_mut().zip(own) {
+            *part += factor * value;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn size(parts: &[f64]) -> f64 {
+        parts.iter().map(|part| part * part).sum::<f64>().sqrt()
+    }
+
+    /// Errors of force and moment over the force, against a film of more of everything.
+    fn off<const M: usize, const G: usize>(d_over_b: f64, elements: usize) {
+        for least in [0.3, 0.1, 0.05, 0.02] {
+            for share in [0.0, 0.5, 0.9, 1.0] {
+                let mut worst = [0.0_f64; 2];
+                let mut film = TiltedFilm::<M, G>::new(d_over_b, elements);
+                let mut finer = TiltedFilm::<14, 28>::new(d_over_b, 24);
+                for k in 0..8 {
+                    let turn = 0.3 + TAU * f64::from(k) / 8.0;
+                    for lean in [0.0, 1.0, 2.0, 3.1] {
+                        let lean = lean + turn;
+                        // share of the way that the centre leaves to the ends
+                        let middle = (1.0 - least) * (1.0 - share);
+                        let centre = [middle * turn.cos(), middle * turn.sin()];
+                        let unit = [lean.cos(), lean.sin()];
+                        let mut slant = 0.0;
+                        let mut step = 1.0;
+                        for _ in 0..60 {
+                            let at = |s: f64| {
+                                let of = |sign: f64| {
+                                    (centre[0] + sign * s * unit[0])
+                                        .hypot(centre[1] + sign * s * unit[1])
+                                };
+                                of(1.0).max(of(-1.0))
+                            };
+                            if at(slant + step) <= 1.0 - least {
+                                slant += step;
+                            }
+                            step *= 0.5;
+                        }
+                        let place = [centre[0], centre[1], slant * unit[0], slant * unit[1]];
+                        let motion = [
+                            0.3 * f64::from(k).cos(),
+                            (2.0 * f64::from(k)).sin(),
+                            0.2,
+                            -0.1 * f64::from(k - 4),
+                        ];
+                        let seen = film.force(place, motion).unwrap_or_default().force;
+                        let exact = finer.force(place, motion).unwrap_or_default().force;
+                        let scale = size(&exact[..2]);
+                        let by = |i: usize| (seen[i] - exact[i]) / scale;
+                        worst[0] = worst[0].max(by(0).hypot(by(1)));
+                        worst[1] = worst[1].max(by(2).hypot(by(3)));
+                    }
+                }
+                println!(
+                    "M {M} E {elements} G {G} D/B {d_over_b:.2} least {least} share {share}: {:.1e} {:.1e}",
+                    worst[0], worst[1]
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn explore() {
+        for d_over_b in [4.0, 2.0 / 3.0] {
+            off::<5, 10>(d_over_b, 12);
+            off::<6, 10>(d_over_b, 10);
+            off::<6, 12>(d_over_b, 12);
+            off::<8, 12>(d_over_b, 12);
+        }
+    }
 }

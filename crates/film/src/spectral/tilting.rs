@@ -19,17 +19,17 @@ const ELEMENTS: usize = 12;
 /// The film for the width.
 #[derive(Debug, Clone)]
 pub(super) enum TiltingFilm {
-    Narrow(Box<TiltedFilm<6>>),
-    Wide(Box<TiltedFilm<8>>),
+    Narrow(Box<TiltedFilm<6, 10>>),
+    Wide(Box<TiltedFilm<8, 12>>),
 }
 
 impl TiltingFilm {
     pub(super) fn new(width_ratio: f64) -> Self {
         let d_over_b = 1.0 / width_ratio;
         if width_ratio <= NARROW {
-            Self::Narrow(Box::new(TiltedFilm::new(d_over_b, ELEMENTS, 10)))
+            Self::Narrow(Box::new(TiltedFilm::new(d_over_b, ELEMENTS)))
         } else {
-            Self::Wide(Box::new(TiltedFilm::new(d_over_b, ELEMENTS, 12)))
+            Self::Wide(Box::new(TiltedFilm::new(d_over_b, ELEMENTS)))
         }
     }
 

@@ -1,11 +1,11 @@
 //! Peak, flow out of both ends and wetted share of a tilted film as last solved.
 
 use super::widthwise::shapes_at;
-use super::{DEGREE, NODES, TiltedFilm, cubed, gap_at};
+use super::{DEGREE, Gap, NODES, TiltedFilm};
 use crate::spectral::answer::FilmFigures;
 use std::f64::consts::TAU;
 
-impl<const M: usize> TiltedFilm<M> {
+impl<const M: usize, const G: usize> TiltedFilm<M, G> {
     /// Figures of the last solution.
     pub(in crate::spectral) fn figures(&self) -> FilmFigures {
         if self.motion == [0.0; 4] {
@@ -17,11 +17,20 @@ impl<const M: usize> TiltedFilm<M> {
             peak_angle,
             peak_place,
             end_flow: [-1.0, 1.0].map(|end| self.end_flow(end)),
-            full_film_share: 0.5 * self.wetted / TAU,
+            full_film_share: self.full_film_share(),
         }
     }
 
-    /// What shapes at one Z make of the pressures at the nodes of an element.
+    /// By the positive stretches of all lines.
+    fn full_film_share(&self) -> f64 {
+        let arcs = self.sums.iter().enumerate();
+        let sum: f64 = arcs
+            .map(|(e, sums)| sums.length * self.layout.span(e).width)
+            .sum();
+        0.5 * sum / TAU
+    }
+
+    /// What shapes at one Z make of u at the nodes of an element.
     fn at_nodes(&self, element: usize, shapes: &[f64; M]) -> [f64; NODES] {
         let (pressures, _) = self.answer.as_chunks::<M>();
         std::array::from_fn(|i| {
@@ -34,7 +43,10 @@ impl<const M: usize> TiltedFilm<M> {
         let (element, xi) = self.layout.locate(angle.rem_euclid(TAU));
         let values = self.at_nodes(element, &shapes_at(z).map(|[value, _]| value));
         let basis = self.rule.basis(xi);
-        basis.iter().zip(values).map(|(b, v)| b * v).sum()
+        let u: f64 = basis.iter().zip(values).map(|(b, v)| b * v).sum();
+        let (sin, cos) = angle.sin_cos();
+        let [height, _] = Gap::at(&self.place, [cos, sin]).on(z);
+        u / (height * height)
     }
 
     /// Largest pressure, its angle and Z: from the highest node on a line by the quadratic around the
@@ -47,10 +59,12 @@ impl<const M: usize> TiltedFilm<M> {
             let span = self.layout.span(e);
             for line in &self.across.lines {
                 let values = self.at_nodes(e, &line.values);
-                for (value, xi) in values.into_iter().zip(&self.rule.places) {
+                for i in 0..NODES {
+                    let [height, _] = Gap::at(&self.place, span.trig[i]).on(line.place);
+                    let value = values[i] / (height * height);
                     if value > highest {
                         (highest, z) = (value, line.place);
-                        angle = span.start + span.width * xi;
+                        angle = span.start + span.width * self.rule.places[i];
                         reach = [span.width / DEGREE as f64, 0.2 * (1.0 - z.abs())];
                     }
                 }
@@ -91,10 +105,11 @@ impl<const M: usize> TiltedFilm<M> {
             let values = self.at_nodes(e, &slopes);
             self.rule.stretches(&values, |xi, weight| {
                 let (sin, cos) = (span.start + span.width * xi).sin_cos();
-                let [middle, change] = gap_at(&self.place, [cos, sin]);
+                // H^3 p_Z, where u is zero.
+                let [height, _] = Gap::at(&self.place, [cos, sin]).on(end);
                 let basis = self.rule.basis(xi);
                 let value: f64 = basis.iter().zip(values).map(|(b, v)| b * v).sum();
-                flow += span.width * weight * value * cubed([middle + end * change, 0.0])[0];
+                flow += span.width * weight * value * height;
             });
         }
         flow
