@@ -329,14 +329,14 @@ mod tests {
 
     /// Errors of force and moment over the force, against a film of more of everything.
     fn off<const M: usize, const G: usize>(d_over_b: f64, elements: usize) {
-        for least in [0.3, 0.1, 0.05, 0.02] {
-            for share in [0.0, 0.5, 0.9, 1.0] {
+        for least in [0.1, 0.05, 0.02] {
+            for share in [0.0, 0.5, 1.0] {
                 let mut worst = [0.0_f64; 2];
                 let mut film = TiltedFilm::<M, G>::new(d_over_b, elements);
-                let mut finer = TiltedFilm::<14, 28>::new(d_over_b, 24);
-                for k in 0..8 {
+                let mut finer = TiltedFilm::<14, 40>::new(d_over_b, 20);
+                for k in [1, 3, 6] {
                     let turn = 0.3 + TAU * f64::from(k) / 8.0;
-                    for lean in [0.0, 1.0, 2.0, 3.1] {
+                    for lean in [0.0, 1.0, 3.1] {
                         let lean = lean + turn;
                         // share of the way that the centre leaves to the ends
                         let middle = (1.0 - least) * (1.0 - share);
@@ -382,11 +382,12 @@ mod tests {
 
     #[test]
     fn explore() {
-        for d_over_b in [4.0, 2.0 / 3.0] {
-            off::<5, 10>(d_over_b, 12);
-            off::<6, 10>(d_over_b, 10);
-            off::<6, 12>(d_over_b, 12);
-            off::<8, 12>(d_over_b, 12);
-        }
+        off::<4, 20>(4.0, 12);
+        off::<4, 20>(5.0 / 3.0, 12);
+        off::<5, 20>(5.0 / 3.0, 12);
+        off::<5, 20>(5.0 / 3.0, 10);
+        off::<5, 20>(5.0 / 3.0, 8);
+        off::<6, 20>(1.0, 10);
+        off::<6, 20>(2.0 / 3.0, 10);
     }
 }

@@ -14,13 +14,13 @@ use crate::journal_state::JournalState;
 /// Largest width over diameter that the fewer shapes are enough for.
 const NARROW: f64 = 0.6;
 /// Elements around.
-const ELEMENTS: usize = 12;
+const ELEMENTS: usize = 10;
 
 /// The film for the width.
 #[derive(Debug, Clone)]
 pub(super) enum TiltingFilm {
-    Narrow(Box<TiltedFilm<6, 10>>),
-    Wide(Box<TiltedFilm<8, 12>>),
+    Narrow(Box<TiltedFilm<5, 20>>),
+    Wide(Box<TiltedFilm<6, 20>>),
 }
 
 impl TiltingFilm {
