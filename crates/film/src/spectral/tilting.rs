@@ -12,15 +12,15 @@ use crate::integrals::Units;
 use crate::journal_state::JournalState;
 
 /// Largest width over diameter that the fewer shapes are enough for.
-const NARROW: f64 = 0.6;
+const NARROW: f64 = 0.5;
 /// Elements around.
-const ELEMENTS: usize = 10;
+const ELEMENTS: usize = 7;
 
 /// The film for the width.
 #[derive(Debug, Clone)]
 pub(super) enum TiltingFilm {
-    Narrow(Box<TiltedFilm<5, 20>>),
-    Wide(Box<TiltedFilm<6, 20>>),
+    Narrow(Box<TiltedFilm<4, 14>>),
+    Wide(Box<TiltedFilm<6, 14>>),
 }
 
 impl TiltingFilm {
