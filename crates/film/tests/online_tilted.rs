@@ -117,7 +117,7 @@ fn tangents_equal_differences_of_the_force() {
             let gap = film.minimum_gap(&state);
             for column in 0..4 {
                 let unit = if column < 2 { 1.0 } else { 1.0 / lever };
-                let (step, rate_step) = (1e-5 * gap * unit, 1e-5 * c * SPEED * unit);
+                let (step, rate_step) = (1e-6 * gap * unit, 1e-6 * c * SPEED * unit);
                 let at = |film: &mut OnlineFilm, sign: f64, is_rate: bool| {
                     let mut moved = state;
                     if is_rate {
@@ -181,25 +181,25 @@ fn without_tilt_it_is_the_aligned_film() {
     }
 }
 
-/// The film on a grid, fixed in the shell, on two grids and their limit; the cut costs a grid order, so
+/// The film on a grid that turns with the line of centres, on two grids and their limit; the cut costs a grid order, so
 /// that the limit is known to the change it makes.
 #[test]
 fn force_and_moment_are_those_of_a_grid() {
     for (width_ratio, states) in [
-        (0.25, &STATES[1..3]),
+        (0.25, &STATES[4..5]),
         (0.5, &STATES[3..7]),
-        (1.5, &STATES[1..2]),
+        (1.5, &STATES[4..5]),
     ] {
         let bearing = bearing(width_ratio);
         let mut film = online(&bearing);
         for &(centre, slant) in states {
             let state = tilted(&bearing, centre, slant);
             let seen = react(&mut film, &state);
-            let grids: Vec<Linearised> = [[256, 48], [512, 96]]
+            let grids: Vec<Linearised> = [[192, 48], [384, 96]]
                 .into_iter()
                 .map(|cells| {
-                    let mut grid =
-                        FilmSolver::new(&bearing, &oil(), cells).expect("a plain bearing");
+                    let mut grid = FilmSolver::following(&bearing, &oil(), cells, 0.7)
+                        .expect("a plain bearing");
                     react(&mut grid, &state)
                 })
                 .collect();
@@ -214,7 +214,7 @@ fn force_and_moment_are_those_of_a_grid() {
             let known = errors(&bearing, &grids[1], &limit);
             println!("B/D {width_ratio} {centre:?} {slant:?}: {error:?}, grid {known:?}");
             for i in 0..2 {
-                assert!(error[i] < 1e9, "{centre:?} {slant:?}: {error:?} {known:?}");
+                assert!(error[i] < 5e-4, "{centre:?} {slant:?}: {error:?} {known:?}");
             }
         }
     }
@@ -229,13 +229,20 @@ fn figures_are_those_of_a_grid() {
         let state = tilted(&bearing, centre, slant);
         let seen = react(&mut film, &state);
         let summary = film.summary();
-        let mut grid = FilmSolver::new(&bearing, &oil(), [512, 96]).expect("a plain bearing");
+        let mut grid =
+            FilmSolver::following(&bearing, &oil(), [384, 96], 0.7).expect("a plain bearing");
         let by_grid = react(&mut grid, &state);
         let expected = grid.summary();
+        // The cells of a grid place a peak and count what is wet to a part of their size.
         let close = |name: &str, a: f64, b: f64, scale: f64| {
             let off = (a - b).abs() / scale;
+            let bar = match name {
+                "peak" | "peak angle" | "peak place" => 1e-2,
+                "share" => 4e-3,
+                _ => 2e-3,
+            };
             println!("{centre:?} {name}: {off:.1e}");
-            assert!(off < 5e8, "{centre:?} {slant:?} {name}: {a} {b}");
+            assert!(off < bar, "{centre:?} {slant:?} {name}: {a} {b}");
         };
         let peak = [summary.peak_film_pressure, expected.peak_film_pressure];
         close("peak", peak[0].value, peak[1].value, peak[1].value);

@@ -7,8 +7,8 @@
 //! Friction: shear of a full film over the whole width, `eta R U_s/h` integrated; the pressure part
 //! `+-(h/2) dp/dx` integrates by parts to half the couple `e x F`.
 //! Limits: cylinders, smooth and rigid; isoviscous; no feeds; ambient and cavitation pressure 0.
-//! Errors of the force over its size: see [`OnlineFilm::aligned`].
-//! References: numerics of the closure `gumbel` in `half_film`, of `reynolds` in `fitted_film`; friction: O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication, 1961, ch. 3.
+//! Errors of the force over its size: see [`OnlineFilm::aligned`] and [`OnlineFilm::new`].
+//! References: numerics of the closure `gumbel` in `half_film`, with tilt in `tilted_film`, of `reynolds` in `fitted_film`; friction: O. Pinkus, B. Sternlicht, Theory of Hydrodynamic Lubrication, 1961, ch. 3.
 
 use super::aligned_film::{AlignedFilm, Precision};
 use super::answer::FilmFigures;
@@ -66,7 +66,10 @@ type Solved = (Reaction, Tangent, Outcome, f64);
 impl OnlineFilm {
     /// Film of a journal that may tilt, closure `gumbel`.
     ///
-    /// NEWDOC
+    /// For B/D from 0.25 to 1.5 force and moment are within 8e-4 of the force, and of the force at half the
+    /// width, while the smallest gap is 0.05 of the clearance or more, wherever the journal leans; within 5e-3
+    /// down to 0.02. Up to B/D 0.75 it is 3e-4 and 5e-3. The derivatives are those of the discrete
+    /// force. (`film/tests/online_tilted.rs`)
     ///
     /// # Errors
     /// As [`OnlineFilm::aligned`]; the closure `reynolds` has no tilt on line.

@@ -236,7 +236,7 @@ impl<const M: usize, const G: usize> TiltedFilm<M, G> {
         for e in 0..self.layout.count() {
             let span = *self.layout.span(e);
             let nodes: [usize; NODES] = std::array::from_fn(|i| self.node(e, i));
-            let gaps: [Gap; NODES] = std::array::from_fn(|i| Gap::at(&self.place, span.trig[i]));
+            let gaps = span.point_trig.map(|trig| Gap::at(&self.place, trig));
             let mut sums = Sums::default();
             for (g, line) in self.across.lines.iter().enumerate() {
                 let values = nodes.map(|node| self.lines[node][g]);
@@ -250,11 +250,14 @@ impl<const M: usize, const G: usize> TiltedFilm<M, G> {
                     continue;
                 }
                 if values.iter().all(|value| *value >= 0.0) {
-                    for i in 0..NODES {
-                        let weight = self.rule.weights[i] * line.weight;
-                        let point = [self.rule.places[i], line.place, weight];
-                        let of = sums.add(point, values[i], span.trig[i], &gaps[i]);
-                        load(i, of, 1.0);
+                    let points = self.rule.points.iter().zip(&self.rule.shares).zip(&gaps);
+                    for (k, ((&[xi, weight], shares), gap)) in points.enumerate() {
+                        let value = shares.iter().zip(values).map(|(b, v)| b * v).sum();
+                        let point = [xi, line.place, weight * line.weight];
+                        let of = sums.add(point, value, span.point_trig[k], gap);
+                        for (i, share) in shares.iter().enumerate() {
+                            load(i, of, *share);
+                        }
                     }
                 } else {
                     self.rule.stretches(&values, |xi, weight| {

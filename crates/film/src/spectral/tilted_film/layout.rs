@@ -8,7 +8,7 @@
 //! is smooth in c, also where an end is centred, and so are the elements.
 //! Reference: A. Sommerfeld, Z. Math. Phys. 50 (1904) 97.
 
-use super::positive::ElementRule;
+use super::positive::{ElementRule, POINTS};
 use super::{NODES, Place};
 use std::f64::consts::TAU;
 
@@ -24,6 +24,8 @@ pub(super) struct Span {
     pub width: f64,
     /// cos and sin at its nodes.
     pub trig: [[f64; 2]; NODES],
+    /// The same at the points of a whole stretch.
+    pub point_trig: [[f64; 2]; POINTS],
     /// Derivatives of start and arc by place.
     pub start_slope: Place,
     pub width_slope: Place,
@@ -87,10 +89,12 @@ impl Layout {
             span.width = width;
             span.start_slope = start_slope;
             span.width_slope = std::array::from_fn(|q| next_slope[q] - start_slope[q]);
-            for (trig, xi) in span.trig.iter_mut().zip(&rule.places) {
+            let trig_at = |xi: f64| {
                 let (sin, cos) = (start + width * xi).sin_cos();
-                *trig = [cos, sin];
-            }
+                [cos, sin]
+            };
+            span.trig = rule.places.map(trig_at);
+            span.point_trig = rule.points.map(|[xi, _]| trig_at(xi));
             (start, start_slope) = (next, next_slope);
         }
     }

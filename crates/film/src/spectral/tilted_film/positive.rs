@@ -1,14 +1,14 @@
 //! What of a polynomial on an element is positive?
 //!
-//! The nodes tell where it changes sign; Newton's method finds its zeros between them, and Gauss points
-//! integrate each positive stretch.
+//! The nodes tell where it changes sign; Newton's method finds its zeros between them. Each
+//! positive stretch has the Gauss-Lobatto rule of a whole element, so that nothing jumps as a zero leaves
+//! the element.
 
 use super::{DEGREE, Gap, NODES, Place};
-use crate::spectral::quadrature::{Element, gauss_legendre};
+use crate::spectral::quadrature::Element;
 
-/// Gauss points of a stretch: exact for the polynomial times one of a few degrees, as which cos and
-/// sin pass on an element.
-const POINTS: usize = DEGREE / 2 + 3;
+/// Gauss-Lobatto points of a stretch: what they miss would have to be derived by the place of the zeros.
+pub(super) const POINTS: usize = 11;
 
 /// The polynomials of an element, on [0, 1].
 #[derive(Debug, Clone)]
@@ -20,7 +20,9 @@ pub(super) struct ElementRule {
     pub slopes: [[f64; NODES]; NODES],
     /// Coefficients by powers (row) of the polynomial of a node.
     powers: [[f64; NODES]; NODES],
-    gauss: [[f64; 2]; POINTS],
+    /// Points of a whole stretch with weights, and the values there of the polynomials of all nodes.
+    pub points: [[f64; 2]; POINTS],
+    pub shares: [[f64; NODES]; POINTS],
 }
 
 /// Integrals over the positive part of an element, in its own coordinate.
@@ -88,14 +90,17 @@ impl ElementRule {
                 powers[power][node] = product[power];
             }
         }
-        let gauss = gauss_legendre(POINTS);
-        Self {
+        let fine = Element::new(POINTS - 1);
+        let mut rule = Self {
             places,
             weights: std::array::from_fn(|i| element.weights[i]),
             slopes: std::array::from_fn(|i| std::array::from_fn(|j| element.slopes[i][j])),
             powers,
-            gauss: std::array::from_fn(|i| [0.5 + 0.5 * gauss[i][0], 0.5 * gauss[i][1]]),
-        }
+            points: std::array::from_fn(|k| [fine.nodes[k], fine.weights[k]]),
+            shares: [[0.0; NODES]; POINTS],
+        };
+        rule.shares = rule.points.map(|[xi, _]| rule.basis(xi));
+        rule
     }
 
     /// Hands over the places and weights of all positive stretches.
@@ -112,8 +117,9 @@ impl ElementRule {
                 continue;
             };
             if is_positive {
-                for [xi, weight] in self.gauss {
-                    hand(begin + (end - begin) * xi, (end - begin) * weight);
+                let width = end - begin;
+                for [xi, weight] in self.points {
+                    hand(begin + width * xi, width * weight);
                 }
             }
             begin = end;
