@@ -60,6 +60,21 @@ fn main() {
                     }
                 });
             }
+            if cavitation == Cavitation::Gumbel {
+                // The journal leans across its path by a part of the gap.
+                let slant = 0.05 * bearing.radial_clearance / bearing.width;
+                let mut film = OnlineFilm::new(&bearing, &oil()).unwrap();
+                measure(&name("tilted"), 1, || {
+                    for state in &states {
+                        let tilt = state
+                            .position
+                            .map(|part| slant * part / bearing.radial_clearance);
+                        let state = JournalState { tilt, ..*state };
+                        let seen = film.linearise(&state, Step::Steady, &conditions()).unwrap();
+                        black_box(seen.tangent);
+                    }
+                });
+            }
             let mut field = FilmSolver::aligned(&bearing, &oil(), [64, 16]).unwrap();
             measure(&name("field 64 x 16"), 4, || {
                 for state in &states {

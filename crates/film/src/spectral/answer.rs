@@ -25,3 +25,30 @@ pub struct AlignedFigures {
     /// Share of the surface under pressure.
     pub full_film_share: f64,
 }
+
+/// The same of any film, with the place of the peak.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct FilmFigures {
+    /// Largest pressure, 1/s.
+    pub peak: f64,
+    /// Its angle in the frame that the film was solved in, rad.
+    pub peak_angle: f64,
+    /// Its Z.
+    pub peak_place: f64,
+    /// Flow out of the ends Z = -1 and Z = 1 over c R^2 D/B, 1/s.
+    pub end_flow: [f64; 2],
+    /// Share of the surface under pressure.
+    pub full_film_share: f64,
+}
+
+impl From<AlignedFigures> for FilmFigures {
+    fn from(aligned: AlignedFigures) -> Self {
+        Self {
+            peak: aligned.peak,
+            peak_angle: aligned.peak_angle,
+            peak_place: 0.0,
+            end_flow: [aligned.end_flow; 2],
+            full_film_share: aligned.full_film_share,
+        }
+    }
+}

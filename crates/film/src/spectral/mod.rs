@@ -4,7 +4,7 @@
 //! Sommerfeld's angle. [`OnlineFilm`] is the model behind [`crate::FilmForce`], [`AlignedFilm`] the
 //! same without units, also to the precision that tables need. Two closures:
 //! - `gumbel`: the full film falls apart into one equation around for each shape; what is positive of it
-//!   is integrated;
+//!   is integrated. Tilt couples the shapes: then elements of high degree around;
 //! - `reynolds`: the film is mapped onto a rectangle between its two fronts, which are moved to where
 //!   pressure ends smoothly.
 
@@ -24,6 +24,8 @@ mod full_film;
 mod half_film;
 mod profile;
 mod quadrature;
+mod tilted_film;
+mod tilting;
 
 pub use aligned_film::{AlignedFilm, Precision};
 pub use answer::{AlignedFigures, AlignedForce};

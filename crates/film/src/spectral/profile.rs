@@ -70,8 +70,8 @@ impl<const M: usize> ProfileMatrix<M> {
         true
     }
 
-    /// Solves for two right-hand sides in place, blocks of both one after another.
-    pub(super) fn solve(&self, sides: &mut [[f64; 2]]) {
+    /// Solves for right-hand sides side by side in place.
+    pub(super) fn solve<const L: usize>(&self, sides: &mut [[f64; L]]) {
         let (sides, _) = sides.as_chunks_mut::<M>();
         for column in 0..self.starts.len() {
             let start = self.starts[column];
@@ -80,8 +80,9 @@ impl<const M: usize> ProfileMatrix<M> {
             for (block, known) in own.iter().zip(&sides[start..column]) {
                 for t in 0..M {
                     for b in 0..M {
-                        value[b][0] -= block[t][b] * known[t][0];
-                        value[b][1] -= block[t][b] * known[t][1];
+                        for side in 0..L {
+                            value[b][side] -= block[t][b] * known[t][side];
+                        }
                     }
                 }
             }
@@ -89,8 +90,9 @@ impl<const M: usize> ProfileMatrix<M> {
             for t in 0..M {
                 value[t] = value[t].map(|part| part * diagonal[t][t]);
                 for b in t + 1..M {
-                    value[b][0] -= diagonal[t][b] * value[t][0];
-                    value[b][1] -= diagonal[t][b] * value[t][1];
+                    for side in 0..L {
+                        value[b][side] -= diagonal[t][b] * value[t][side];
+                    }
                 }
             }
             sides[column] = value;
@@ -102,8 +104,9 @@ impl<const M: usize> ProfileMatrix<M> {
             let mut value = sides[column];
             for t in (0..M).rev() {
                 for b in t + 1..M {
-                    value[t][0] -= diagonal[t][b] * value[b][0];
-                    value[t][1] -= diagonal[t][b] * value[b][1];
+                    for side in 0..L {
+                        value[t][side] -= diagonal[t][b] * value[b][side];
+                    }
                 }
                 value[t] = value[t].map(|part| part * diagonal[t][t]);
             }
@@ -111,8 +114,9 @@ impl<const M: usize> ProfileMatrix<M> {
             for (block, open) in own.iter().zip(&mut sides[start..column]) {
                 for t in 0..M {
                     for b in 0..M {
-                        open[t][0] -= block[t][b] * value[b][0];
-                        open[t][1] -= block[t][b] * value[b][1];
+                        for side in 0..L {
+                            open[t][side] -= block[t][b] * value[b][side];
+                        }
                     }
                 }
             }
