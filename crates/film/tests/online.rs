@@ -528,6 +528,7 @@ fn what_it_does_not_have_is_refused_by_name() {
         "remembers",
     );
     refused(&with(&|b| b.width = 0.0), &oil(), "positive");
+    refused(&bearing(2.1, Cavitation::Reynolds), &oil(), "twice as wide");
     let hole = Feed {
         shape: FeedShape::Hole { diameter: 6e-3 },
         carried_by: Carrier::Shell,

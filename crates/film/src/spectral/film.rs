@@ -31,6 +31,10 @@ use std::f64::consts::TAU;
 /// divided by.
 const CENTRED: f64 = 1e-7;
 
+/// Largest width over diameter of a film between fronts: in a wider one, lines across the width may stay
+/// without rupture as the gap opens.
+const WIDEST: f64 = 2.0;
+
 /// A film solved on line: the [`FilmForce`] for many calls in little time.
 #[derive(Debug, Clone)]
 pub struct OnlineFilm {
@@ -100,11 +104,17 @@ impl OnlineFilm {
     /// # Errors
     /// [`FilmError::Unsupported`] names what this film does not have: feeds, profiles, roughness, an
     /// elastic shell, pressures other than 0 at ends and in the ruptured film, oils that depend on
-    /// pressure or shear, other closures and inlets.
+    /// pressure or shear, other closures and inlets; and a closure `reynolds` wider than two diameters.
     pub fn aligned(bearing: &Bearing, lubricant: &Lubricant) -> Result<Self, FilmError> {
         check_bearing(bearing)?;
         check_lubricant(lubricant)?;
         let width_ratio = bearing.width / bearing.diameter;
+        if bearing.cavitation == Cavitation::Reynolds && width_ratio > WIDEST {
+            return Err(FilmError::Unsupported {
+                reason: "an on-line film with cavitation = \"reynolds\" is at most twice as wide as its diameter: \
+                         use model = \"field\"",
+            });
+        }
         let kernel = AlignedFilm::new(bearing.cavitation, width_ratio, Precision::OnLine)?;
         Ok(Self {
             bearing: bearing.clone(),
