@@ -196,7 +196,7 @@ fn solved(
 /// Error of rings whose derivatives are compared.
 const FINE: f64 = 1e-5;
 /// One state of so many is compared with rings, whatever the films of the nodes are.
-const INDEPENDENT: usize = 16;
+const INDEPENDENT: usize = 32;
 
 /// Radial clearance of the bearing that states are looked up in, whose radius is 1 m.
 const CLEARANCE: f64 = 1e-3;

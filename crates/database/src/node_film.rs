@@ -2,7 +2,7 @@
 //!
 //! Films without cells answer in some milliseconds. Where they are known to be exact, away from contact,
 //! one is enough. Elsewhere a second one with more of everything must agree; where it does not, or its
-//! fronts do not settle, rings of columns (`aligned_film`), an independent method and some twenty times slower,
+//! fronts do not settle, and where an opening gap bends the fronts, rings of columns (`aligned_film`), an independent method and some twenty times slower,
 //! are solved to their own tolerance.
 //!
 //! A film without cells begins from the fronts of the one before, which leaves a trace below 3e-6 of the
@@ -10,6 +10,7 @@
 //! of the slices.
 
 use crate::aligned_film::{AlignedFilm as Rings, FilmCase};
+use crate::direction::Direction;
 use sommerfeld_film::spectral::{AlignedFilm, AlignedForce, Precision};
 use sommerfeld_film::{Cavitation, Outcome};
 
@@ -49,6 +50,8 @@ pub struct NodeFilm {
 
 /// Up to this relative eccentricity one film of [`Precision::Fine`] is within [`FINE_ERROR`].
 const KNOWN: f64 = 0.95;
+/// The same after Gumbel, whose films have no fronts to be found.
+const KNOWN_GUMBEL: f64 = 0.99;
 /// The same holds for these width ratios.
 const KNOWN_WIDTHS: [f64; 2] = [0.25, 1.0];
 /// Error of the force over its size, the trace of the film before included.
@@ -56,7 +59,17 @@ const FINE_ERROR: f64 = 2e-5;
 /// Least error that is stated elsewhere: fronts across the width leave it where both films agree by chance.
 const OTHER_ERROR: f64 = 4e-5;
 /// Two films may differ by this many tolerances: it is the error of the one that is dropped.
-const AGREEMENT: f64 = 3.0;
+const AGREEMENT: f64 = 5.0;
+
+/// Directions, in the coordinate of tables, in which the film of an opening gap lets go of the contact: its
+/// front bends so sharply across the width that both films may err alike, by [`BENT_ERROR`].
+const BENT: [f64; 2] = [-0.72, -0.32];
+/// Relative eccentricity from which fronts bend so.
+const BENT_FROM: f64 = 0.97;
+/// Error of the force over its size there.
+const BENT_ERROR: f64 = 2e-4;
+/// Tolerances below this are met there by rings alone.
+const BENT_TOLERANCE: f64 = 1.5e-5;
 
 impl NodeFilm {
     /// Films of these bearings; errors are below `tolerance`, or `FINE_ERROR`, if that can be had.
@@ -83,12 +96,24 @@ impl NodeFilm {
     fn without_cells(&mut self, eccentricity: f64, angle: f64) -> Option<Solved> {
         let width_ratio = self.width_ratio;
         let [narrow, wide] = KNOWN_WIDTHS;
-        if eccentricity <= KNOWN && (narrow..=wide).contains(&width_ratio) {
+        let known = match self.closure {
+            Cavitation::Gumbel => KNOWN_GUMBEL,
+            _ => KNOWN,
+        };
+        if eccentricity <= known && (narrow..=wide).contains(&width_ratio) {
             let solved = solve(self.fine.as_mut()?, eccentricity, angle, width_ratio)?;
             return Some(Solved {
                 error: FINE_ERROR,
                 ..solved
             });
+        }
+        let (sin, cos) = angle.sin_cos();
+        let [from, to] = BENT;
+        let is_bent = self.closure == Cavitation::Reynolds
+            && eccentricity > BENT_FROM
+            && (from..=to).contains(&Direction::new(eccentricity, cos, sin).place);
+        if is_bent && self.tolerance < BENT_TOLERANCE {
+            return None;
         }
         let coarse = solve(
             self.near_contact.as_mut()?,
@@ -99,8 +124,9 @@ impl NodeFilm {
         let solved = solve(self.finest.as_mut()?, eccentricity, angle, width_ratio)?;
         let [along, across] = [0, 1].map(|row| solved.force[row] - coarse.force[row]);
         let error = along.hypot(across) / solved.force[0].hypot(solved.force[1]);
+        let least = if is_bent { BENT_ERROR } else { OTHER_ERROR };
         (error < AGREEMENT * self.tolerance).then_some(Solved {
-            error: error.max(OTHER_ERROR),
+            error: error.max(least),
             ..solved
         })
     }

@@ -102,7 +102,7 @@ impl AlignedFilm {
                 Kernel::HalfFine(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Gumbel, Precision::Finest) => {
-                Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 768)))
+                Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
                 let accuracy = fitted(5, 6, 3, 3e-6);
