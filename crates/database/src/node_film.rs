@@ -53,7 +53,7 @@ const KNOWN: f64 = 0.95;
 /// The same after Gumbel, whose films have no fronts to be found.
 const KNOWN_GUMBEL: f64 = 0.99;
 /// The same holds for these width ratios.
-const KNOWN_WIDTHS: [f64; 2] = [0.25, 1.0];
+const KNOWN_WIDTHS: [f64; 2] = [0.2, 1.0];
 /// Error of the force over its size, the trace of the film before included.
 const FINE_ERROR: f64 = 2e-5;
 /// Least error that is stated elsewhere: fronts across the width leave it where both films agree by chance.
@@ -96,6 +96,10 @@ impl NodeFilm {
     fn without_cells(&mut self, eccentricity: f64, angle: f64) -> Option<Solved> {
         let width_ratio = self.width_ratio;
         let [narrow, wide] = KNOWN_WIDTHS;
+        // Fronts of narrow films hardly settle, and rings need few nodes across them.
+        if self.closure == Cavitation::Reynolds && width_ratio < narrow {
+            return None;
+        }
         let known = match self.closure {
             Cavitation::Gumbel => KNOWN_GUMBEL,
             _ => KNOWN,

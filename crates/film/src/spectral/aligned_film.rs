@@ -19,8 +19,8 @@ use crate::force::{FilmError, Outcome};
 pub enum Precision {
     /// For films in the loop of an orbit.
     OnLine,
-    /// For tables: error of the force below 2e-5 of its size up to a relative eccentricity of 0.99 and
-    /// B/D of 1.5.
+    /// For tables: error of the force below 2e-5 of its size up to a relative eccentricity of 0.95 and
+    /// B/D of 1; against rings of columns 3e-5 at 0.99 and B/D 0.5, 2e-4 at 0.99 and B/D 1.5.
     Fine,
     /// For tables close to contact: fronts of more terms, and nodes that crowd more in the narrowest gap.
     NearContact,
