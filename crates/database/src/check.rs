@@ -6,9 +6,9 @@
 //! with those of the solved film at its set, by the relative eccentricity and by the angle of the
 //! motion, over the larger of their size and that of the force.
 
-use crate::aligned_film::{AlignedFilm, FilmCase, Solved};
 use crate::direction::Direction;
 use crate::error::DatabaseError;
+use crate::node_film::{NodeFilm, Solved};
 use crate::recipe::Recipe;
 use crate::table::Table;
 use crate::table_film::TableFilm;
@@ -56,6 +56,10 @@ pub struct CheckReport {
     pub dissipation_minimum: f64,
     /// Largest error that the solver states of the films compared with.
     pub solver_maximum: f64,
+    /// States compared with rings of columns, and the largest error of the force there.
+    pub independent: usize,
+    /// See [`CheckReport::independent`].
+    pub independent_maximum: f64,
 }
 
 /// What one state shows.
@@ -68,6 +72,7 @@ struct Compared {
     difference: f64,
     dissipation: f64,
     solver: f64,
+    by_rings: bool,
 }
 
 /// Compares a table with films solved at `samples` states drawn from `seed`, on all cores; the
@@ -94,7 +99,15 @@ pub(crate) fn check_at(
 ) -> Result<CheckReport, DatabaseError> {
     let compared: Vec<Compared> = places
         .par_iter()
-        .map(|place| compare(table, *place, derivatives))
+        .enumerate()
+        .map_init(
+            || None,
+            |film, (at, place)| {
+                let by_rings = at % INDEPENDENT == 0;
+                let solved = solved(table.recipe(), place, derivatives, by_rings)?;
+                compare(film_at(table, film, place)?, *place, &solved, derivatives)
+            },
+        )
         .collect::<Result<_, _>>()?;
     Ok(report(&compared))
 }
@@ -125,6 +138,8 @@ fn report(compared: &[Compared]) -> CheckReport {
         difference_maximum: largest(|c| c.difference),
         dissipation_minimum: sorted(|c| c.dissipation).first().copied().unwrap_or(0.0),
         solver_maximum: largest(|c| c.solver),
+        independent: compared.iter().filter(|c| c.by_rings).count(),
+        independent_maximum: largest(|c| if c.by_rings { c.error } else { 0.0 }),
     }
 }
 
@@ -151,31 +166,37 @@ fn draw(recipe: &Recipe, seed: u64, index: usize) -> Place {
     }
 }
 
-/// The solver's film at a state.
-fn solved(recipe: &Recipe, place: &Place, tangents: bool) -> Result<Solved, DatabaseError> {
-    let case = FilmCase {
-        eccentricity: place.eccentricity,
-        width_ratio: place.width_ratio,
-        closure: recipe.closure,
-        line: false,
-    };
-    // Derivatives of a film at its set are as coarse as its columns: they ask for more of these.
+/// The solver's film at a state, cold.
+fn solved(
+    recipe: &Recipe,
+    place: &Place,
+    tangents: bool,
+    by_rings: bool,
+) -> Result<Solved, DatabaseError> {
+    // Derivatives of rings at their set are as coarse as the columns: they ask for more of these.
     let tolerance = if tangents {
         recipe.tolerance().min(FINE)
     } else {
         recipe.tolerance()
     };
-    AlignedFilm::new(case, tolerance)
-        .solve(place.angle.abs(), tolerance, tangents)
-        .ok_or(DatabaseError::NotSolved {
-            eccentricity: place.eccentricity,
-            direction_deg: place.angle.to_degrees(),
-            width_ratio: place.width_ratio,
-        })
+    let mut film = NodeFilm::new(recipe.closure, place.width_ratio, tolerance);
+    let angle = place.angle.abs();
+    let solved = if by_rings {
+        film.rings(place.eccentricity, angle, tangents)
+    } else {
+        film.solve(place.eccentricity, angle, tangents)
+    };
+    solved.ok_or(DatabaseError::NotSolved {
+        eccentricity: place.eccentricity,
+        direction_deg: place.angle.to_degrees(),
+        width_ratio: place.width_ratio,
+    })
 }
 
-/// Error of films whose derivatives are compared.
+/// Error of rings whose derivatives are compared.
 const FINE: f64 = 1e-5;
+/// One state of so many is compared with rings, whatever the films of the nodes are.
+const INDEPENDENT: usize = 32;
 
 /// Radial clearance of the bearing that states are looked up in, whose radius is 1 m.
 const CLEARANCE: f64 = 1e-3;
@@ -207,14 +228,33 @@ const CONDITIONS: Conditions<'_> = Conditions {
     feed_pressures: None,
 };
 
-fn compare(table: &Arc<Table>, place: Place, derivatives: bool) -> Result<Compared, DatabaseError> {
-    let recipe = table.recipe();
-    let solved = solved(recipe, &place, derivatives)?;
+/// The table's film at the width ratio of a place: the one before if it is the same.
+fn film_at<'film>(
+    table: &Arc<Table>,
+    last: &'film mut Option<(f64, TableFilm)>,
+    place: &Place,
+) -> Result<&'film mut TableFilm, DatabaseError> {
+    let width_ratio = place.width_ratio;
+    let own = match last.take() {
+        Some((known, film)) if known == width_ratio => film,
+        _ => TableFilm::new(
+            Arc::clone(table),
+            &bearing(table.recipe(), width_ratio),
+            VISCOSITY,
+        )?,
+    };
+    Ok(&mut last.insert((width_ratio, own)).1)
+}
+
+fn compare(
+    film: &mut TableFilm,
+    place: Place,
+    solved: &Solved,
+    derivatives: bool,
+) -> Result<Compared, DatabaseError> {
     let side = 1.0_f64.copysign(place.angle);
     let mirrored = |[along, across]: [f64; 2]| [along, side * across];
-    let bearing = bearing(recipe, place.width_ratio);
-    let mut film = TableFilm::new(Arc::clone(table), &bearing, VISCOSITY)?;
-    let scale = VISCOSITY * bearing.width / (2.0 * CLEARANCE.powi(3));
+    let scale = VISCOSITY * place.width_ratio / CLEARANCE.powi(3);
     let (sin, cos) = place.angle.sin_cos();
     let state = JournalState {
         position: [place.eccentricity * CLEARANCE, 0.0],
@@ -223,20 +263,20 @@ fn compare(table: &Arc<Table>, place: Place, derivatives: bool) -> Result<Compar
     };
     let seen = film.react(&state, Step::Steady, &CONDITIONS)?;
     let force = seen.reaction.film_force.map(|f| f / scale);
-    let direct = mirrored(solved.answer.force);
+    let direct = mirrored(solved.force);
     let size = length(direct);
     let by_position = seen.tangent.by_position;
     let by_rate = seen.tangent.by_rate;
     let by_eps: [f64; 2] = std::array::from_fn(|row| by_position[row][0] * CLEARANCE / scale);
     let by_angle: [f64; 2] =
         std::array::from_fn(|row| (cos * by_rate[row][1] - sin * by_rate[row][0]) / scale);
-    let direct_by_eps = mirrored(solved.answer.by_eccentricity);
-    let direct_by_angle = mirrored(solved.answer.by_angle).map(|slope| side * slope);
+    let direct_by_eps = mirrored(solved.by_eccentricity);
+    let direct_by_angle = mirrored(solved.by_angle).map(|slope| side * slope);
     let off = |found: [f64; 2], direct: [f64; 2]| {
         length([found[0] - direct[0], found[1] - direct[1]]) / length(direct).max(size)
     };
     let peak = film.summary().peak_film_pressure.value * CLEARANCE.powi(3) / VISCOSITY;
-    let peak = (peak / solved.answer.peak - 1.0).abs();
+    let peak = (peak / solved.peak - 1.0).abs();
     if !derivatives {
         return Ok(Compared {
             place,
@@ -246,6 +286,7 @@ fn compare(table: &Arc<Table>, place: Place, derivatives: bool) -> Result<Compar
             difference: 0.0,
             dissipation: 1.0,
             solver: solved.error,
+            by_rings: solved.by_rings,
         });
     }
     Ok(Compared {
@@ -253,9 +294,10 @@ fn compare(table: &Arc<Table>, place: Place, derivatives: bool) -> Result<Compar
         error: off(force, direct),
         peak,
         tangent: off(by_eps, direct_by_eps).max(off(by_angle, direct_by_angle)),
-        difference: difference(&mut film, &place)?,
-        dissipation: dissipation(&mut film, &place)?,
+        difference: difference(film, &place)?,
+        dissipation: dissipation(film, &place)?,
         solver: solved.error,
+        by_rings: solved.by_rings,
     })
 }
 

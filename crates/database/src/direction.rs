@@ -39,13 +39,16 @@ impl Direction {
     #[must_use]
     pub fn new(eccentricity: f64, along: f64, across: f64) -> Self {
         let across = across.abs();
-        let t = along / (along.hypot(across) + across);
+        let size = (along * along + across * across).sqrt();
+        let t = along / (size + across);
         let (s, slope) = stretch(eccentricity);
         let square = s * s;
-        let scale = 1.0 / (1.0 / s).asinh();
-        let place = (t / s).asinh() * scale;
-        let root = (square + t * t).sqrt();
-        let by_s = scale / s * (place / (1.0 + square).sqrt() - t / root);
+        let (root, end_root) = ((square + t * t).sqrt(), (square + 1.0).sqrt());
+        // asinh(t/s) over asinh(1/s), with two logarithms.
+        let per_s = 1.0 / s;
+        let scale = 1.0 / ((1.0 + end_root) * per_s).ln();
+        let place = (((t.abs() + root) * per_s).ln() * scale).copysign(t);
+        let by_s = scale * per_s * (place / end_root - t / root);
         Self {
             place,
             by_angle: -0.5 * (1.0 + t * t) * scale / root,

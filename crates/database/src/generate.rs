@@ -7,11 +7,11 @@
 //! errs; it gets a node in the middle of every two. Once no axis shows an error, films at states between
 //! the nodes decide: drawn ones, and the middles beside the nodes that were missed most.
 
-use crate::aligned_film::{AlignedFilm, FilmCase};
 use crate::check::{CheckReport, Place, check_at, places};
 use crate::contents::Contents;
 use crate::direction::{Direction, from_logarithms};
 use crate::error::DatabaseError;
+use crate::node_film::NodeFilm;
 use crate::recipe::Recipe;
 use crate::table::{Axes, Errors, Node, Table, contents, parts};
 use rayon::prelude::*;
@@ -222,14 +222,9 @@ impl Build {
     ) -> Result<Option<Vec<Node>>, DatabaseError> {
         let [_, eccentricities, directions] = self.axes.counts();
         let (width, at) = (slice / eccentricities, slice % eccentricities);
-        let case = FilmCase {
-            eccentricity: self.axes.eccentricity.value(at),
-            width_ratio: self.axes.width_ratio.value(width),
-            closure: self.recipe.closure,
-            line: false,
-        };
-        let tolerance = self.recipe.tolerance();
-        let mut film = AlignedFilm::new(case, tolerance);
+        let eccentricity = self.axes.eccentricity.value(at);
+        let width_ratio = self.axes.width_ratio.value(width);
+        let mut film = NodeFilm::new(self.recipe.closure, width_ratio, self.recipe.tolerance());
         let mut nodes = self.nodes[slice * directions..(slice + 1) * directions].to_vec();
         let mut centred: Option<Node> = None;
         for (direction, node) in nodes.iter_mut().enumerate() {
@@ -243,14 +238,14 @@ impl Build {
             *node = match centred {
                 // In the centre all directions are alike.
                 Some(first) => turned(&first, angle),
-                None => solve(&mut film, angle, tolerance).ok_or(DatabaseError::NotSolved {
-                    eccentricity: case.eccentricity,
+                None => solve(&mut film, eccentricity, angle).ok_or(DatabaseError::NotSolved {
+                    eccentricity,
                     direction_deg: angle.to_degrees(),
-                    width_ratio: case.width_ratio,
+                    width_ratio,
                 })?,
             };
             if at == 0 && centred.is_none() {
-                let first = solve(&mut film, 0.0, tolerance).unwrap_or(*node);
+                let first = solve(&mut film, eccentricity, 0.0).unwrap_or(*node);
                 *node = turned(&first, angle);
                 centred = Some(first);
             }
@@ -370,15 +365,14 @@ impl Build {
     }
 }
 
-fn solve(film: &mut AlignedFilm, angle: f64, tolerance: f64) -> Option<Node> {
-    let solved = film.solve(angle, tolerance, false)?;
-    let answer = solved.answer;
+fn solve(film: &mut NodeFilm, eccentricity: f64, angle: f64) -> Option<Node> {
+    let solved = film.solve(eccentricity, angle, false)?;
     Some(Node {
-        force: answer.force,
-        peak: answer.peak,
-        peak_angle: answer.peak_angle.abs(),
-        side_flow: answer.side_flow,
-        full_film_share: answer.full_film_share,
+        force: solved.force,
+        peak: solved.peak,
+        peak_angle: solved.peak_angle.abs(),
+        side_flow: solved.side_flow,
+        full_film_share: solved.full_film_share,
         error: solved.error,
     })
 }

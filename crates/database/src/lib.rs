@@ -11,6 +11,7 @@ pub mod contents;
 pub mod direction;
 pub mod error;
 pub mod generate;
+pub mod node_film;
 pub mod recipe;
 pub mod spline;
 pub mod superposition;

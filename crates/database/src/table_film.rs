@@ -11,7 +11,7 @@
 //! linearly in atanh(eps), that is F by a power of the gap. At eps = 0 the film only resists w.
 //! Limits: those of the table; full-width shear, see [`PlainFilm`].
 
-use crate::axis::Axis;
+use crate::axis::Placing;
 use crate::direction::Direction;
 use crate::error::DatabaseError;
 use crate::surface::Surface;
@@ -28,10 +28,12 @@ use std::sync::Arc;
 pub struct TableFilm {
     table: Arc<Table>,
     film: PlainFilm,
-    eccentricity: Axis,
-    direction: Axis,
+    eccentricity: Placing,
+    direction: Placing,
     forces: Surface<2>,
     figures: Surface<4>,
+    /// Force of a film of unit dissipation at unit velocity, with its sign, N s/m.
+    scale: f64,
 }
 
 /// Relative eccentricity below which the direction of the journal from the centre is taken for that of
@@ -53,10 +55,12 @@ impl TableFilm {
         refuse(&table, bearing)?;
         let film = PlainFilm::new(bearing, viscosity)?;
         let (forces, figures) = table.slice(bearing.width / bearing.diameter)?;
+        let slenderness = film.radius / film.clearance;
         Ok(Self {
+            scale: -0.5 * film.viscosity * film.width * slenderness.powi(3),
             film,
-            eccentricity: table.axes().eccentricity,
-            direction: table.axes().direction,
+            eccentricity: table.axes().eccentricity.placing(),
+            direction: table.axes().direction.placing(),
             forces,
             figures,
             table,
@@ -74,8 +78,8 @@ impl TableFilm {
         let motion = PlainFilm::effective_velocity(state);
         let mut position = state.position;
         let smallest = CENTRED * self.film.clearance;
-        if state.eccentricity() < smallest {
-            let speed = motion[0].hypot(motion[1]);
+        if length(position) < smallest {
+            let speed = length(motion);
             position = if speed > 0.0 {
                 motion.map(|w| smallest * w / speed)
             } else {
@@ -88,10 +92,12 @@ impl TableFilm {
     /// Force and its derivatives by position, at fixed effective velocity, and by effective velocity.
     fn forces(&self, state: &JournalState) -> ([f64; 2], [[f64; 2]; 2], [[f64; 2]; 2]) {
         let (position, motion) = self.position_and_motion(state);
-        let distance = position[0].hypot(position[1]);
-        let unit = position.map(|e| e / distance);
-        let eps = distance / self.film.clearance;
-        let speed = motion[0].hypot(motion[1]);
+        let distance = length(position);
+        let per_distance = 1.0 / distance;
+        let unit = position.map(|e| e * per_distance);
+        let per_clearance = 1.0 / self.film.clearance;
+        let eps = distance * per_clearance;
+        let speed = length(motion);
         // A film at rest answers as if its gap began to close.
         let way = if speed > 0.0 {
             motion.map(|w| w / speed)
@@ -112,14 +118,10 @@ impl TableFilm {
             found.by_eccentricity[k] * slope_e + found.by_direction[k] * moved_slope
         });
         let [dissipation, turn] = found.value;
-        let (growth, shrink) = (turn.exp(), (-turn).exp());
+        let growth = turn.exp();
+        let shrink = 1.0 / growth;
         let (sinh, cosh) = (0.5 * (growth - shrink), 0.5 * (growth + shrink));
-        let film = &self.film;
-        let scale = -0.5
-            * film.viscosity
-            * film.width
-            * (film.radius / film.clearance).powi(3)
-            * dissipation.exp();
+        let scale = self.scale * dissipation.exp();
         let quarter = |[x, y]: [f64; 2]| [-y, x];
         let (turned, beside) = (quarter(way), quarter(unit));
         let q = side * sinh;
@@ -138,8 +140,8 @@ impl TableFilm {
                     scale * (identity[row][column] + per_turn[row] * turned[column]);
                 by_position[row][column] = scale
                     * speed
-                    * (per_eps[row] * unit[column] / film.clearance
-                        - per_turn[row] * beside[column] / distance);
+                    * (per_eps[row] * unit[column] * per_clearance
+                        - per_turn[row] * beside[column] * per_distance);
             }
         }
         (
@@ -148,6 +150,11 @@ impl TableFilm {
             by_velocity,
         )
     }
+}
+
+/// Without the care of `hypot` for numbers whose squares leave the range: journals have none.
+fn length([x, y]: [f64; 2]) -> f64 {
+    (x * x + y * y).sqrt()
 }
 
 /// Refuses bearings of which the table says nothing.
@@ -211,11 +218,11 @@ impl FilmForce for TableFilm {
             return FilmSummary::default();
         };
         let (position, motion) = self.position_and_motion(state);
-        let speed = motion[0].hypot(motion[1]);
+        let speed = length(motion);
         if speed == 0.0 {
             return self.film.summary(Extreme::default(), 0.0, 0.0);
         }
-        let distance = position[0].hypot(position[1]);
+        let distance = length(position);
         let along = (motion[0] * position[0] + motion[1] * position[1]) / distance;
         let across = (position[0] * motion[1] - position[1] * motion[0]) / distance;
         let film = &self.film;

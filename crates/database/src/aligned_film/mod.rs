@@ -5,6 +5,9 @@
 //! cut, for `gumbel`. Two rings are extrapolated to their limit (Richardson), which two more must
 //! confirm. The nodes across the width are chosen on the film without rupture, whose error no set
 //! disturbs.
+//! Films without cells (`sommerfeld_film::spectral`) are some twenty times faster; rings are the method that
+//! shares nothing with them: they answer where those are not exact enough (`node_film`), and for some of
+//! the states of every check.
 //!
 //! Limits: aligned, rigid, isoviscous, no feeds, ends and ruptured film at the same pressure.
 //! References: numerics of the film as `sommerfeld-film`, which this agrees with in the tests; across

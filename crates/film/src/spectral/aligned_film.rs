@@ -19,9 +19,15 @@ use crate::force::{FilmError, Outcome};
 pub enum Precision {
     /// For films in the loop of an orbit.
     OnLine,
-    /// For tables: error of the force below 2e-5 of its size up to a relative eccentricity of 0.99 and
-    /// B/D of 1.5.
+    /// For tables: error of the force below 2e-5 of its size up to a relative eccentricity of 0.95 and
+    /// B/D of 1; against rings of columns 3e-5 at 0.99 and B/D 0.5, 2e-4 at 0.99 and B/D 1.5.
     Fine,
+    /// For tables close to contact: fronts of more terms, and nodes that crowd more in the narrowest gap.
+    NearContact,
+    /// As [`Precision::NearContact`] with more of everything. What both differ by is the error of the
+    /// coarser one; up to a relative eccentricity of 0.999 and B/D of 1 below 1e-4 of the force in most
+    /// directions (`database/tests/nodes.rs`).
+    Finest,
 }
 
 /// The film of an aligned journal.
@@ -37,16 +43,22 @@ enum Kernel {
     HalfNarrow(Box<HalfFilm<4, 4>>),
     HalfWide(Box<HalfFilm<6, 6>>),
     HalfFine(Box<HalfFilm<8, 8>>),
+    HalfFinest(Box<HalfFilm<12, 12>>),
     FittedNarrow(Box<FittedFilm<4, 6>>),
     FittedWide(Box<FittedFilm<5, 7>>),
     FittedWider(Box<FittedFilm<6, 8>>),
     FittedFine(Box<FittedFilm<7, 9>>),
+    FittedFinest(Box<FittedFilm<9, 11>>),
 }
 
 /// Largest width over diameter that four shapes are enough for.
 const NARROW: f64 = 0.6;
 /// Largest width over diameter that five are enough for.
 const WIDE: f64 = 1.0;
+/// Modulus of the substitution of a fitted film over the relative eccentricity.
+const MODULUS: f64 = 0.96;
+/// The same where nodes crowd in the narrowest gap.
+const CROWDED: f64 = 0.985;
 
 impl AlignedFilm {
     /// Film of a bearing of this width over diameter, all ends at cavitation pressure, cyclic.
@@ -69,7 +81,12 @@ impl AlignedFilm {
             elements,
             degree,
             terms,
+            modulus: MODULUS,
             tolerance,
+        };
+        let crowded = |elements, degree, terms| Accuracy {
+            modulus: CROWDED,
+            ..fitted(elements, degree, terms, 1e-7)
         };
         let kernel = match (cavitation, precision) {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
@@ -80,6 +97,12 @@ impl AlignedFilm {
             }
             (Cavitation::Gumbel, Precision::Fine) => {
                 Kernel::HalfFine(Box::new(HalfFilm::new(d_over_b, 256)))
+            }
+            (Cavitation::Gumbel, Precision::NearContact) => {
+                Kernel::HalfFine(Box::new(HalfFilm::new(d_over_b, 512)))
+            }
+            (Cavitation::Gumbel, Precision::Finest) => {
+                Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
                 let accuracy = fitted(5, 6, 3, 3e-6);
@@ -96,6 +119,12 @@ impl AlignedFilm {
             (Cavitation::Reynolds, Precision::Fine) => {
                 let accuracy = fitted(8, 7, 4, 1e-7);
                 Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, accuracy)))
+            }
+            (Cavitation::Reynolds, Precision::NearContact) => {
+                Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, crowded(8, 8, 5))))
+            }
+            (Cavitation::Reynolds, Precision::Finest) => {
+                Kernel::FittedFinest(Box::new(FittedFilm::new(d_over_b, crowded(10, 8, 6))))
             }
             (Cavitation::MassConserving, _) => {
                 return Err(FilmError::Unsupported {
@@ -139,10 +168,12 @@ impl AlignedFilm {
             Kernel::HalfNarrow(film) => (film.force(eps, motion), true),
             Kernel::HalfWide(film) => (film.force(eps, motion), true),
             Kernel::HalfFine(film) => (film.force(eps, motion), true),
+            Kernel::HalfFinest(film) => (film.force(eps, motion), true),
             Kernel::FittedNarrow(film) => film.force(eps, motion),
             Kernel::FittedWide(film) => film.force(eps, motion),
             Kernel::FittedWider(film) => film.force(eps, motion),
             Kernel::FittedFine(film) => film.force(eps, motion),
+            Kernel::FittedFinest(film) => film.force(eps, motion),
         };
         let outcome = if settled {
             Outcome::Converged
@@ -189,10 +220,12 @@ impl AlignedFilm {
             Kernel::HalfNarrow(film) => film.figures(),
             Kernel::HalfWide(film) => film.figures(),
             Kernel::HalfFine(film) => film.figures(),
+            Kernel::HalfFinest(film) => film.figures(),
             Kernel::FittedNarrow(film) => film.figures(),
             Kernel::FittedWide(film) => film.figures(),
             Kernel::FittedWider(film) => film.figures(),
             Kernel::FittedFine(film) => film.figures(),
+            Kernel::FittedFinest(film) => film.figures(),
         }
     }
 }

@@ -30,8 +30,6 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 mod fronts;
 mod strip;
 
-/// Modulus of the substitution over the relative eccentricity.
-const MODULUS: f64 = 0.96;
 /// How far beyond the half turn with w n > 0 a cold film is thought to reach, rad.
 const FIRST_REACH: f64 = 0.15;
 /// Fronts move at most so far at once, rad.
@@ -76,6 +74,8 @@ pub(super) struct Accuracy {
     pub degree: usize,
     /// Terms of the fronts.
     pub terms: usize,
+    /// Modulus of the substitution over the relative eccentricity.
+    pub modulus: f64,
     /// Change of the force over its size by a further update.
     pub tolerance: f64,
 }
@@ -125,7 +125,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             sources: vec![[0.0; 2]; nodes * M],
             answers: vec![[0.0; 2]; nodes * M],
             points: vec![strip::Point::default(); elements * (degree + 1) * G],
-            map: SommerfeldAngle::new(0.0, MODULUS),
+            map: SommerfeldAngle::new(0.0, accuracy.modulus),
             eps: 0.0,
             motion: [1.0, 0.0],
             fronts: Fronts {
@@ -165,7 +165,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         let near = (eps - self.eps).abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3;
         self.eps = eps;
         self.motion = motion;
-        self.map = SommerfeldAngle::new(eps, MODULUS);
+        self.map = SommerfeldAngle::new(eps, self.accuracy.modulus);
         if !(self.is_warm && near) {
             let reach = FRAC_PI_2 + FIRST_REACH;
             self.wishes = [[-reach; G], [reach; G]];
@@ -257,6 +257,7 @@ mod tests {
                 elements,
                 degree,
                 terms: 4,
+                modulus: 0.96,
                 tolerance: 1e-7,
             };
             let mut fine = FittedFilm::<7, 9>::new(d_over_b, accuracy(8, 7));

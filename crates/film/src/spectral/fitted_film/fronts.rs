@@ -7,7 +7,7 @@
 use crate::spectral::quadrature::gauss_legendre;
 
 /// Most terms of a front.
-pub(super) const MOST_TERMS: usize = 4;
+pub(super) const MOST_TERMS: usize = 6;
 /// How fast the weight of lines falls towards the ends: (1 - Z^2) to this power.
 const FALL: i32 = 3;
 
