@@ -100,7 +100,7 @@ fn centred() -> &'static Arc<SuperpositionTable> {
             eccentricity_nodes: 5,
             tilt_nodes: [5, 5],
             largest_shares: [0.4, 0.4],
-            centre_nodes: [7, 12],
+            centre_nodes: [7, 14],
             grid: [64, 20],
             samples: 0,
             ..SuperpositionRecipe::tilted(2.0)
@@ -291,13 +291,8 @@ fn near_the_centre() {
                 (f1 - direct.p_cos).hypot(f2 - direct.p_sin) / force,
                 (m1 - direct.p_z_cos).hypot(m2 - direct.p_z_sin) / moment,
             ];
-            // Below the first eccentricity the moment over eps goes on straight.
-            let moment_holds = eps >= table.recipe().eccentricities[0];
             println!("{size} {height} {ray}: {off:.4?}");
-            worst = [
-                worst[0].max(off[0]),
-                worst[1].max(if moment_holds { off[1] } else { 0.0 }),
-            ];
+            worst = [worst[0].max(off[0]), worst[1].max(off[1])];
         }
     }
     println!("worst {worst:?}");
@@ -320,7 +315,7 @@ fn slopes_of(table: &SuperpositionTable) {
             (0.4, 0.0, 0.0),
             (0.5, 0.93, 0.86),
             (0.06, -0.05, 0.1),
-            (0.3, 0.2, 0.15),
+            (0.4, 0.2, 0.25),
         ] {
             let [along, across] = tilt_box::tilts(eps, [share, transverse]);
             let found = table.lookup(drive, eps, [along, across]);

@@ -22,9 +22,9 @@ use crate::spline::{End, fit};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// First and last A of the films.
-const SIZES: [f64; 2] = [0.02, 0.5];
+const SIZES: [f64; 2] = [0.02, 0.55];
 /// From it to the last A the curves turn into those of the table over eccentricity and tilts.
-const JOIN: f64 = 0.3;
+const JOIN: f64 = 0.4;
 /// Largest even degree in x and y.
 pub(super) const LARGEST_DEGREE: usize = 20;
 /// A below it has no direction.
@@ -314,9 +314,9 @@ mod tests {
             let found = centre.lookup(eps, [along, across]);
             // Forces over eps are even in it.
             let expected = wedge(eps.max(1e-9), [along, across]);
-            for k in 0..4 {
+            for (k, expected) in expected.into_iter().enumerate().take(4) {
                 let factor = if k < 2 { eps.max(1e-9) } else { 1.0 };
-                assert!((found.values[k] - expected[k] / factor).abs() < 1e-7);
+                assert!((found.values[k] - expected / factor).abs() < 1e-7);
                 let at = |e: f64, a: f64, c: f64| {
                     centre.lookup(eps + e, [along + a, across + c]).values[k]
                 };
@@ -344,11 +344,11 @@ mod tests {
     fn it_joins_with_a_continuous_slope() {
         for size in [JOIN, SIZES[1]] {
             let [share, slope] = Centre::share_of_table(size);
-            assert!((share - f64::from(u8::from(size > 0.4))).abs() < 1e-12);
+            assert!((share - f64::from(u8::from(size > JOIN))).abs() < 1e-12);
             assert!(slope.abs() < 1e-12);
         }
         let middle = |size| Centre::share_of_table(size)[0];
-        let slope = (middle(0.4 + 1e-6) - middle(0.4 - 1e-6)) / 2e-6;
-        assert!((Centre::share_of_table(0.4)[1] - slope).abs() < 1e-6);
+        let slope = (middle(0.5 + 1e-6) - middle(0.5 - 1e-6)) / 2e-6;
+        assert!((Centre::share_of_table(0.5)[1] - slope).abs() < 1e-6);
     }
 }

@@ -8,6 +8,8 @@ use crate::axis::Axis;
 use crate::error::DatabaseError;
 use crate::spline::{End, coefficients, fit, weights};
 
+/// Eccentricity down to which the moment of a wedge near the centre is divided by it.
+const FIRST_NEAR_CENTRE: f64 = 1e-6;
 /// Interpolated side by side: logarithm of the size, four shares of it, logarithm of the peak over it.
 const LANES: usize = 6;
 
@@ -43,8 +45,8 @@ impl Shape {
 /// Integrals at a state with derivatives by relative eccentricity, tilt along and tilt across.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Looked {
-    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps, below the first eccentricity over a straight
-    /// continuation of 1/eps.
+    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps, the moments below the first eccentricity
+    /// (1e-6 where the recipe has films near the centre) over a straight continuation of 1/eps.
     pub integrals: [f64; 4],
     /// Their derivatives.
     pub slopes: [[f64; 3]; 4],
@@ -87,7 +89,7 @@ impl Parts {
 pub(super) struct Fitted {
     /// Of a wedge, near the centre.
     centre: Option<Centre>,
-    /// The first eccentricity, of the wedge.
+    /// The first eccentricity that a moment of the wedge is divided by.
     first_of_wedge: Option<f64>,
     extents: [usize; 3],
     coefficients: Vec<f64>,
@@ -133,9 +135,13 @@ impl Fitted {
         for line in along.chunks_exact(n_transverse * LANES) {
             coefficients.extend(fit(line, LANES, ends)?);
         }
+        let first = match centre {
+            Some(_) => FIRST_NEAR_CENTRE,
+            None => axes[0].value(0),
+        };
         Ok(Self {
             centre,
-            first_of_wedge: (drive == Drive::Wedge).then(|| axes[0].value(0)),
+            first_of_wedge: (drive == Drive::Wedge).then_some(first),
             extents,
             coefficients,
         })

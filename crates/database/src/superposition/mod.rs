@@ -114,7 +114,7 @@ impl SuperpositionRecipe {
             eccentricity_nodes: 17,
             largest_shares: [0.95, 0.85],
             tilt_nodes: [21, 15],
-            centre_nodes: [9, 12],
+            centre_nodes: [9, 14],
             cavitation: Cavitation::Reynolds,
             wedge_inlet: Inlet::Cyclic,
             grid: [128, 40],
