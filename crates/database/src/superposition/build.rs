@@ -6,7 +6,7 @@
 
 use super::grid::Shape;
 use super::stored::Kept;
-use super::{Accuracy, Drive, SuperpositionRecipe, SuperpositionTable, tilt_box};
+use super::{Accuracy, Drive, SuperpositionRecipe, SuperpositionTable, centre, tilt_box};
 use crate::axis::Axis;
 use crate::error::DatabaseError;
 use rayon::prelude::*;
@@ -25,8 +25,13 @@ const BATCH: usize = 64;
 /// Films solved and films in all; `false` as the answer stops the generation.
 pub type Progress<'a> = dyn FnMut(usize, usize) -> bool + 'a;
 
-/// A film to solve: drive and node.
-type Task = (Drive, [usize; 3]);
+/// A film to solve.
+#[derive(Clone, Copy)]
+enum Task {
+    Node(Drive, [usize; 3]),
+    /// Of the wedge near the centre: eccentricity and tilts.
+    Centre(f64, [f64; 2]),
+}
 
 impl SuperpositionTable {
     /// Solves everything that `recipe` asks for. With a `path` the database is written there, and an
@@ -44,7 +49,7 @@ impl SuperpositionTable {
     ) -> Result<Self, DatabaseError> {
         let axes = recipe.axes()?;
         let shape = Shape::of(&axes);
-        let tasks = tasks(shape);
+        let tasks = tasks(recipe, shape);
         let samples = samples(recipe, &axes, FIRST_SEED);
         let total = tasks.len() + samples.len();
         let mut kept = Kept::beside(path, recipe);
@@ -68,7 +73,10 @@ impl SuperpositionTable {
             }
         }
         let nodes = Drive::ALL.map(|drive| filled(drive, shape, &tasks, &solved));
-        let mut table = Self::of(*recipe, nodes, [Accuracy::default(); 3])?;
+        let centre = tasks.iter().zip(&solved);
+        let centre = centre.filter(|(task, _)| matches!(task, Task::Centre(..)));
+        let centre = centre.map(|(_, figures)| *figures).collect();
+        let mut table = Self::of(*recipe, nodes, centre, [Accuracy::default(); 3])?;
         table.measure(&samples, &mut |measured| progress(done + measured, total))?;
         if let Some(path) = path {
             table.write(path)?;
@@ -210,17 +218,23 @@ impl SplitMix {
     }
 }
 
-/// The nodes to solve: one of each set of films that mirror each other.
-fn tasks(shape: Shape) -> Vec<Task> {
+/// The films to solve: one of each set of nodes that mirror each other, and those near the centre.
+fn tasks(recipe: &SuperpositionRecipe, shape: Shape) -> Vec<Task> {
     let mut tasks = Vec::new();
     for drive in Drive::ALL {
         for index in 0..shape.nodes() {
             let node = shape.place(index);
             if representative(drive, shape, node).0 == node {
-                tasks.push((drive, node));
+                tasks.push(Task::Node(drive, node));
             }
         }
     }
+    let states = centre::states(recipe);
+    tasks.extend(
+        states
+            .into_iter()
+            .map(|(eps, tilts)| Task::Centre(eps, tilts)),
+    );
     tasks
 }
 
@@ -250,9 +264,10 @@ fn filled(
     solved: &[[f64; FIGURES]],
 ) -> Vec<[f64; FIGURES]> {
     let mut own = vec![[f64::NAN; FIGURES]; shape.nodes()];
-    for ((of, node), figures) in tasks.iter().zip(solved) {
-        if *of == drive {
-            own[shape.index(*node)] = *figures;
+    for (task, figures) in tasks.iter().zip(solved) {
+        match task {
+            Task::Node(of, node) if *of == drive => own[shape.index(*node)] = *figures,
+            _ => {}
         }
     }
     (0..shape.nodes())
@@ -279,9 +294,12 @@ pub(super) fn place_of(axes: &[Axis; 3], [e, u, d]: [usize; 3]) -> (f64, [f64; 2
 fn solve(
     recipe: &SuperpositionRecipe,
     axes: &[Axis; 3],
-    (drive, node): Task,
+    task: Task,
 ) -> Result<[f64; FIGURES], DatabaseError> {
-    let (eps, tilts) = place_of(axes, node);
+    let (drive, (eps, tilts)) = match task {
+        Task::Node(drive, node) => (drive, place_of(axes, node)),
+        Task::Centre(eps, tilts) => (Drive::Wedge, (eps, tilts)),
+    };
     let solution = solve_film(recipe, drive, eps, tilts, recipe.grid)?;
     let (found, moved) = (solution.integrals, solution.moved);
     let force = found.p_cos.hypot(found.p_sin);

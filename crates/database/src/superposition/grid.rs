@@ -2,11 +2,14 @@
 
 use super::Drive;
 use super::build::{FIGURES, place_of};
+use super::centre::Centre;
 use super::tilt_box;
 use crate::axis::Axis;
 use crate::error::DatabaseError;
 use crate::spline::{End, coefficients, fit, weights};
 
+/// Eccentricity down to which the moment of a wedge near the centre is divided by it.
+const FIRST_NEAR_CENTRE: f64 = 1e-6;
 /// Interpolated side by side: logarithm of the size, four shares of it, logarithm of the peak over it.
 const LANES: usize = 6;
 
@@ -42,8 +45,8 @@ impl Shape {
 /// Integrals at a state with derivatives by relative eccentricity, tilt along and tilt across.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Looked {
-    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps, below the first eccentricity over a straight
-    /// continuation of 1/eps.
+    /// `Phi_1, Phi_2, Theta_1, Theta_2`; of the wedge over eps, the moments below the first eccentricity
+    /// (1e-6 where the recipe has films near the centre) over a straight continuation of 1/eps.
     pub integrals: [f64; 4],
     /// Their derivatives.
     pub slopes: [[f64; 3]; 4],
@@ -51,10 +54,42 @@ pub struct Looked {
     pub peak: f64,
 }
 
+/// Integrals before those of the moment of a wedge are taken over eps.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Parts {
+    /// `Phi_1, Phi_2`, of the wedge over eps, `Theta_1, Theta_2`.
+    pub values: [f64; 4],
+    /// Their derivatives by relative eccentricity, tilt along and tilt across.
+    pub slopes: [[f64; 3]; 4],
+    /// Largest `Pi`.
+    pub peak: f64,
+}
+
+impl Parts {
+    /// Turned into `other` by a share and its derivatives.
+    fn towards(&self, other: &Self, share: f64, by: [f64; 3]) -> Self {
+        Self {
+            values: std::array::from_fn(|k| {
+                self.values[k] + share * (other.values[k] - self.values[k])
+            }),
+            slopes: std::array::from_fn(|k| {
+                std::array::from_fn(|which| {
+                    let own = self.slopes[k][which];
+                    own + share * (other.slopes[k][which] - own)
+                        + by[which] * (other.values[k] - self.values[k])
+                })
+            }),
+            peak: self.peak + share * (other.peak - self.peak),
+        }
+    }
+}
+
 /// Coefficients of the splines of one drive.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
-    /// The first eccentricity, of the wedge.
+    /// Of a wedge, near the centre.
+    centre: Option<Centre>,
+    /// The first eccentricity that a moment of the wedge is divided by.
     first_of_wedge: Option<f64>,
     extents: [usize; 3],
     coefficients: Vec<f64>,
@@ -67,6 +102,7 @@ impl Fitted {
         axes: &[Axis; 3],
         shape: Shape,
         nodes: &[[f64; FIGURES]],
+        centre: Option<Centre>,
     ) -> Result<Self, DatabaseError> {
         let mut values = Vec::with_capacity(shape.nodes() * LANES);
         for (index, node) in nodes.iter().enumerate() {
@@ -99,15 +135,57 @@ impl Fitted {
         for line in along.chunks_exact(n_transverse * LANES) {
             coefficients.extend(fit(line, LANES, ends)?);
         }
+        let first = match centre {
+            Some(_) => FIRST_NEAR_CENTRE,
+            None => axes[0].value(0),
+        };
         Ok(Self {
-            first_of_wedge: (drive == Drive::Wedge).then(|| axes[0].value(0)),
+            centre,
+            first_of_wedge: (drive == Drive::Wedge).then_some(first),
             extents,
             coefficients,
         })
     }
 
     /// Integrals and their derivatives; see [`super::SuperpositionTable::lookup`].
-    pub(super) fn lookup(&self, axes: &[Axis; 3], eps: f64, [along, across]: [f64; 2]) -> Looked {
+    pub(super) fn lookup(&self, axes: &[Axis; 3], eps: f64, tilts: [f64; 2]) -> Looked {
+        let parts = self.parts(axes, eps, tilts);
+        let [inverse, inverse_slope] = match self.first_of_wedge {
+            Some(first) => inverse_from(first, eps),
+            None => [1.0, 0.0],
+        };
+        let mut looked = Looked {
+            integrals: parts.values,
+            slopes: parts.slopes,
+            peak: parts.peak * inverse,
+        };
+        for k in 2..4 {
+            looked.integrals[k] *= inverse;
+            looked.slopes[k] = looked.slopes[k].map(|slope| inverse * slope);
+            looked.slopes[k][0] += inverse_slope * parts.values[k];
+        }
+        looked
+    }
+
+    /// Near the centre the curves of a wedge over its direction, far from it those over the axes.
+    fn parts(&self, axes: &[Axis; 3], eps: f64, tilts: [f64; 2]) -> Parts {
+        let Some(centre) = &self.centre else {
+            return self.of_axes(axes, eps, tilts);
+        };
+        let size = eps.hypot(tilts[0]).hypot(tilts[1]);
+        let [share, slope] = Centre::share_of_table(size);
+        if share >= 1.0 {
+            return self.of_axes(axes, eps, tilts);
+        }
+        let near = centre.lookup(eps, tilts);
+        if share <= 0.0 {
+            return near;
+        }
+        let by = [eps, tilts[0], tilts[1]].map(|own| slope * own / size);
+        near.towards(&self.of_axes(axes, eps, tilts), share, by)
+    }
+
+    fn of_axes(&self, axes: &[Axis; 3], eps: f64, [along, across]: [f64; 2]) -> Parts {
         let tilt = tilt_box::place(eps, along, across);
         let [e, u, d] = [
             Reach::new(&axes[0], eps),
@@ -122,27 +200,15 @@ impl Fitted {
             own + by_share[1][lane] * share[which] + by_share[2][lane] * transverse[which]
         };
         let size = lanes[0].exp();
-        let (inverse, inverse_slope, drive) = match self.first_of_wedge {
-            Some(first) => {
-                let [inverse, slope] = inverse_from(first, eps);
-                (inverse, slope, eps.hypot(along).hypot(across) * inverse)
-            }
-            None => (1.0, 0.0, 1.0),
+        let drive = match self.first_of_wedge {
+            Some(_) => eps.hypot(along).hypot(across),
+            None => 1.0,
         };
-        let factor = |k: usize| if k < 2 { 1.0 } else { inverse };
         let own = |k: usize| size * lanes[k + 1];
-        Looked {
-            integrals: std::array::from_fn(|k| factor(k) * own(k)),
+        Parts {
+            values: std::array::from_fn(own),
             slopes: std::array::from_fn(|k| {
-                std::array::from_fn(|which| {
-                    let grown = size * slope(k + 1, which) + own(k) * slope(0, which);
-                    let of_factor = if k >= 2 && which == 0 {
-                        inverse_slope
-                    } else {
-                        0.0
-                    };
-                    factor(k) * grown + of_factor * own(k)
-                })
+                std::array::from_fn(|which| size * slope(k + 1, which) + own(k) * slope(0, which))
             }),
             peak: size * lanes[5].exp() * drive,
         }
@@ -193,16 +259,16 @@ fn inverse_from(first: f64, eps: f64) -> [f64; 2] {
 }
 
 /// Coefficients that a value reaches along one axis, with their weights.
-struct Reach {
-    first: usize,
+pub(super) struct Reach {
+    pub first: usize,
     count: usize,
-    value: [f64; 4],
-    slope: [f64; 4],
+    pub value: [f64; 4],
+    pub slope: [f64; 4],
 }
 
 impl Reach {
     /// Beyond the ends of an axis the curves go on straight.
-    fn new(axis: &Axis, value: f64) -> Self {
+    pub(super) fn new(axis: &Axis, value: f64) -> Self {
         if axis.count() == 1 {
             return Self {
                 first: 0,

@@ -10,13 +10,15 @@
 //! lacks Phi_2V and Theta_2V, which a transverse tilt makes. Axes: eccentricity, and the two shares of
 //! [`tilt_box`], all even in artanh of their value, so that they are even in the logarithm of the gap
 //! towards contact. Interpolated by cubic splines with two continuous derivatives: the logarithm of the size of
-//! `(Phi_1, Phi_2, Theta_1, Theta_2)`, the forces of the wedge over eps, and the four over that size.
+//! `(Phi_1, Phi_2, Theta_1, Theta_2)`, the forces of the wedge over eps, and the four over that size. Near the
+//! centre the wedge of a tilted journal has a table of its own over the ratios of eccentricity and tilts.
 //! What it is not: forces of separately cut pressures do not add up to that of the film (tens of percent where
 //! the gap closes, more where it opens), and tilt RATES make no force in this scheme: the tilt is taken to turn
 //! with the line of centres. It is for comparison.
 //! Source: O. Marsalek, P. Novotny, L. Drapal, V. Pistek (2012), 10.2478/v10138-012-0015-7, section 3.
 
 mod build;
+mod centre;
 mod film;
 mod grid;
 mod stored;
@@ -28,6 +30,7 @@ pub use grid::Looked;
 
 use crate::axis::{Axis, Spacing};
 use crate::error::DatabaseError;
+use centre::Centre;
 use grid::{Fitted, Shape};
 use sommerfeld_film::dimensionless::DimensionlessFilm;
 use sommerfeld_film::{Cavitation, Inlet};
@@ -80,6 +83,10 @@ pub struct SuperpositionRecipe {
     pub largest_shares: [f64; 2],
     /// Nodes along them, odd; 1 and 1 for a database of aligned journals.
     pub tilt_nodes: [usize; 2],
+    /// Films of the wedge near the centre: sizes of eccentricity and tilt together (none, or at least
+    /// five), and the even degree of the polynomials over their ratios. Without them the tables err by
+    /// percents where tilts are as large as the eccentricity and both are small.
+    pub centre_nodes: [usize; 2],
     /// Closure of the ruptured film: `reynolds` or `gumbel`.
     pub cavitation: Cavitation,
     /// Where the film of the wedge starts. That of the squeeze is cyclic: its pressure peak may lie on
@@ -91,8 +98,7 @@ pub struct SuperpositionRecipe {
     pub grid: [usize; 2],
     /// Smallest relative film thickness of the random states that the error is measured at.
     pub smallest_gap: f64,
-    /// Smallest relative eccentricity of those states. With tilts as large as the eccentricity the wedge
-    /// changes its rupture with their ratio, and the tables err by percents.
+    /// Smallest relative eccentricity of those states.
     pub smallest_eccentricity: f64,
     /// Number of random states of each drive.
     pub samples: usize,
@@ -104,15 +110,16 @@ impl SuperpositionRecipe {
     pub fn tilted(d_over_b: f64) -> Self {
         Self {
             d_over_b,
-            eccentricities: [0.05, 0.95],
-            eccentricity_nodes: 13,
+            eccentricities: [0.01, 0.95],
+            eccentricity_nodes: 17,
             largest_shares: [0.95, 0.85],
-            tilt_nodes: [15, 11],
+            tilt_nodes: [21, 15],
+            centre_nodes: [9, 14],
             cavitation: Cavitation::Reynolds,
             wedge_inlet: Inlet::Cyclic,
             grid: [128, 40],
             smallest_gap: 0.02,
-            smallest_eccentricity: 0.25,
+            smallest_eccentricity: 0.01,
             samples: 60,
         }
     }
@@ -125,6 +132,7 @@ impl SuperpositionRecipe {
             eccentricity_nodes: 25,
             largest_shares: [0.0, 0.0],
             tilt_nodes: [1, 1],
+            centre_nodes: [0, 0],
             smallest_gap: 0.01,
             smallest_eccentricity: 0.02,
             samples: 40,
@@ -167,6 +175,16 @@ impl SuperpositionRecipe {
             return Err(refused(
                 "eccentricities",
                 format!("{:?}", self.eccentricities),
+                allowed,
+            ));
+        }
+        let [shells, degree] = self.centre_nodes;
+        let is_fit = shells >= 5 && degree.is_multiple_of(2) && degree <= centre::LARGEST_DEGREE;
+        if shells != 0 && !is_fit {
+            let allowed = "no sizes, or at least 5, and an even degree of at most 20";
+            return Err(refused(
+                "centre_nodes",
+                format!("{:?}", self.centre_nodes),
                 allowed,
             ));
         }
@@ -246,6 +264,8 @@ pub struct SuperpositionTable {
     axes: [Axis; 3],
     /// Integrals and peak at every node, by drive.
     nodes: Nodes,
+    /// Integrals and peak of the wedge near the centre.
+    centre: Vec<[f64; build::FIGURES]>,
     fitted: [Fitted; 3],
     accuracy: [Accuracy; 3],
 }
@@ -255,13 +275,18 @@ impl SuperpositionTable {
     fn of(
         recipe: SuperpositionRecipe,
         nodes: Nodes,
+        centre: Vec<[f64; build::FIGURES]>,
         accuracy: [Accuracy; 3],
     ) -> Result<Self, DatabaseError> {
         let axes = recipe.axes()?;
         let shape = Shape::of(&axes);
         let mut fitted = Vec::new();
         for (drive, nodes) in Drive::ALL.into_iter().zip(&nodes) {
-            fitted.push(Fitted::through(drive, &axes, shape, nodes)?);
+            let near = match drive {
+                Drive::Wedge => Centre::through(&recipe, &centre)?,
+                _ => None,
+            };
+            fitted.push(Fitted::through(drive, &axes, shape, nodes, near)?);
         }
         let Ok(fitted) = <[Fitted; 3]>::try_from(fitted) else {
             return Err(DatabaseError::Unsupported {
@@ -272,6 +297,7 @@ impl SuperpositionTable {
             recipe,
             axes,
             nodes,
+            centre,
             fitted,
             accuracy,
         })

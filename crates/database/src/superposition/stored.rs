@@ -2,7 +2,7 @@
 
 use super::build::{FIGURES, place_of};
 use super::grid::Shape;
-use super::{Accuracy, Drive, SuperpositionRecipe, SuperpositionTable};
+use super::{Accuracy, Drive, SuperpositionRecipe, SuperpositionTable, centre};
 use crate::contents::{Contents, Value};
 use crate::error::DatabaseError;
 use sommerfeld_film::{Cavitation, Inlet};
@@ -26,6 +26,9 @@ const NAMES: [(&str, &str); FIGURES] = [
         "Estimated error of the integrals before they are extrapolated, over force and moment",
     ),
 ];
+
+/// Films near the centre.
+const CENTRE: &str = "centre_D";
 
 /// Files are rewritten after so many films at the least.
 const FILMS_PER_WRITE: usize = 256;
@@ -75,6 +78,21 @@ impl SuperpositionTable {
             let name = format!("accuracy_{}", drive.letter());
             contents.attribute(&name, Value::Numbers(numbers));
         }
+        let states = centre::states(&self.recipe);
+        let lines = states
+            .iter()
+            .zip(&self.centre)
+            .flat_map(|((eps, [along, across]), node)| {
+                [*eps, along / (1.0 - eps), *across]
+                    .into_iter()
+                    .chain(*node)
+            });
+        let meaning = "Films of the wedge near the centre: eccentricity, gamma, delta, then the figures of a \
+                       node in their order";
+        let extents = [states.len(), 3 + FIGURES];
+        if !states.is_empty() {
+            contents.array(CENTRE, "1", meaning, &extents, lines.collect());
+        }
         let meaning = "samples, then errors over force and moment: largest, of 99.9 %, median of the \
                        samples, largest of the nodes";
         contents.attribute("accuracy_meaning", Value::Text(meaning.to_owned()));
@@ -111,7 +129,16 @@ impl SuperpositionTable {
                 node_error,
             };
         }
-        Self::of(recipe, nodes, accuracy)
+        let extents = [centre::states(&recipe).len(), 3 + FIGURES];
+        let lines: &[f64] = if extents[0] == 0 {
+            &[]
+        } else {
+            contents.values(path, CENTRE, &extents)?
+        };
+        let centre = (lines.chunks_exact(extents[1]))
+            .map(|line| std::array::from_fn(|k| line[3 + k]))
+            .collect();
+        Self::of(recipe, nodes, centre, accuracy)
     }
 }
 
@@ -131,6 +158,7 @@ fn note_recipe(recipe: &SuperpositionRecipe, contents: &mut Contents) {
             Value::Numbers(recipe.largest_shares.to_vec()),
         ),
         ("tilt_nodes", pair(recipe.tilt_nodes)),
+        ("centre_nodes", pair(recipe.centre_nodes)),
         (
             "cavitation",
             text(match recipe.cavitation {
@@ -179,6 +207,7 @@ fn recipe_of(contents: &Contents, path: &Path) -> Result<SuperpositionRecipe, Da
         eccentricity_nodes: number("eccentricity_nodes")? as usize,
         largest_shares: pair("largest_shares")?,
         tilt_nodes: counts("tilt_nodes")?,
+        centre_nodes: counts("centre_nodes")?,
         cavitation: closures[word("cavitation", &["gumbel", "reynolds"])?],
         wedge_inlet: inlets[word("wedge_inlet", &["cyclic", "max-film-line"])?],
         grid: counts("grid")?,

@@ -1,0 +1,354 @@
+//! What is the wedge of a journal near the centre of the bore, tilted as much as it is eccentric?
+//!
+//! ```text
+//! H = 1 + (eps - along Z) cos(phi) - across Z sin(phi)       A = |(eps, along, across)|
+//! Phi/eps = f(A, x, y)       Theta/A = g(A, x, y)            x = along/A, y = across/A
+//! ```
+//! For A -> 0 the pressure of the wedge is proportional to A, and how it ruptures depends on the direction
+//! alone: a cone, which no table over eccentricity and tilt follows. Over the direction and A it is smooth.
+//! With `eps -> -eps` the film turns by half a turn and its ends change places: the force changes its sign,
+//! the moment does not, so that f and g are even in eps and hence smooth in x and y up to the rim of the unit
+//! disc, where eps = 0. With both tilts turned round only the moment changes its sign: f is even, g odd in
+//! (x, y) together.
+//! Products of Legendre polynomials in x and y, by least squares through films on rings; cubic splines through
+//! their coefficients along A. Below the first A the curves go on straight to the limit.
+
+use super::SuperpositionRecipe;
+use super::build::FIGURES;
+use super::grid::{Parts, Reach};
+use crate::axis::{Axis, Spacing};
+use crate::error::DatabaseError;
+use crate::spline::{End, fit};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// First and last A of the films.
+const SIZES: [f64; 2] = [0.02, 0.55];
+/// From it to the last A the curves turn into those of the table over eccentricity and tilts.
+const JOIN: f64 = 0.4;
+/// Largest even degree in x and y.
+pub(super) const LARGEST_DEGREE: usize = 20;
+/// A below it has no direction.
+const SMALLEST: f64 = 1e-12;
+/// Of `Phi_1, Phi_2, Theta_1, Theta_2, peak`: those even in the tilts, and the odd ones.
+const LANES: [&[usize]; 2] = [&[0, 1, 4], &[2, 3]];
+/// Legendre polynomials up to one degree above the largest, and their derivatives.
+type Polynomials = [[f64; LARGEST_DEGREE + 2]; 2];
+
+/// States `(eps, [along, across])` of the films near the centre.
+pub(super) fn states(recipe: &SuperpositionRecipe) -> Vec<(f64, [f64; 2])> {
+    let [shells, degree] = recipe.centre_nodes;
+    let Ok(axis) = axis(shells) else {
+        return Vec::new();
+    };
+    let (rings, rays) = (degree / 2 + 2, degree + 2);
+    let mut states = Vec::new();
+    for size in axis.values() {
+        for ring in 0..rings {
+            // The rim itself has no force of the wedge to divide by eps.
+            let angle = FRAC_PI_2 * (ring as f64 + 0.5) / (rings as f64 + 0.2);
+            let (radius, height) = angle.sin_cos();
+            for ray in 0..rays {
+                // The other half is that of the journal turned round.
+                let turn = PI * (ray as f64 + 0.25 * (ring % 3) as f64) / rays as f64;
+                let (y, x) = turn.sin_cos();
+                states.push((size * height, [x, y].map(|side| size * radius * side)));
+            }
+        }
+    }
+    states
+}
+
+fn axis(shells: usize) -> Result<Axis, DatabaseError> {
+    Axis::new("centre_nodes", Spacing::Linear, SIZES[0], SIZES[1], shells)
+}
+
+/// Curves of the wedge near the centre.
+#[derive(Debug, Clone)]
+pub(super) struct Centre {
+    axis: Axis,
+    degree: usize,
+    /// Coefficients of one A.
+    width: usize,
+    coefficients: Vec<f64>,
+}
+
+impl Centre {
+    /// Curves through the films at [`states`]; none where the recipe has none.
+    pub(super) fn through(
+        recipe: &SuperpositionRecipe,
+        nodes: &[[f64; FIGURES]],
+    ) -> Result<Option<Self>, DatabaseError> {
+        let [shells, degree] = recipe.centre_nodes;
+        if shells == 0 {
+            return Ok(None);
+        }
+        let states = states(recipe);
+        let of_shell = states.len() / shells;
+        let mut lines = Vec::new();
+        for (states, nodes) in states.chunks(of_shell).zip(nodes.chunks(of_shell)) {
+            let samples: Vec<_> = states
+                .iter()
+                .zip(nodes)
+                .map(|((eps, tilts), node)| sample(*eps, *tilts, node))
+                .collect();
+            for parity in 0..2 {
+                lines.extend(least_squares(degree, parity, &samples));
+            }
+        }
+        let width = lines.len() / shells;
+        Ok(Some(Self {
+            axis: axis(shells)?,
+            degree,
+            width,
+            coefficients: fit(&lines, width, [End::NotAKnot; 2])?,
+        }))
+    }
+
+    /// Share of the table over eccentricity and tilts at a size A, and its derivative.
+    pub(super) fn share_of_table(size: f64) -> [f64; 2] {
+        let span = SIZES[1] - JOIN;
+        let place = ((size - JOIN) / span).clamp(0.0, 1.0);
+        [
+            place * place * (3.0 - 2.0 * place),
+            6.0 * place * (1.0 - place) / span,
+        ]
+    }
+
+    /// Forces over eps, moments, and peak, with derivatives.
+    pub(super) fn lookup(&self, eps: f64, [along, across]: [f64; 2]) -> Parts {
+        let size = eps.hypot(along).hypot(across).max(SMALLEST);
+        let [h, x, y] = [eps / size, along / size, across / size];
+        let reach = Reach::new(&self.axis, size);
+        let curves = self.curves(&reach, x, y);
+        let mut parts = Parts::default();
+        for (lane, [value, by_size, by_x, by_y]) in curves.into_iter().enumerate() {
+            let inward = (by_x * x + by_y * y) / size;
+            let slopes = [
+                (by_size - inward) * h,
+                (by_size - inward) * x + by_x / size,
+                (by_size - inward) * y + by_y / size,
+            ];
+            if lane == 4 {
+                parts.peak = size * value;
+            } else if lane < 2 {
+                parts.values[lane] = value;
+                parts.slopes[lane] = slopes;
+            } else {
+                parts.values[lane] = size * value;
+                let own = [h, x, y];
+                parts.slopes[lane] = std::array::from_fn(|k| own[k] * value + size * slopes[k]);
+            }
+        }
+        parts
+    }
+
+    /// Of each lane: value, derivatives by A, x and y.
+    fn curves(&self, reach: &Reach, x: f64, y: f64) -> [[f64; 4]; 5] {
+        let [of_x, of_y] = [legendre(x), legendre(y)];
+        let mut curves = [[0.0; 4]; 5];
+        let rows: [&[f64]; 4] = std::array::from_fn(|k| {
+            &self.coefficients[(reach.first + k) * self.width..][..self.width]
+        });
+        let mut at = 0;
+        for (parity, lanes) in LANES.into_iter().enumerate() {
+            for [i, j] in terms(self.degree, parity) {
+                let basis = of_x[0][i] * of_y[0][j];
+                let (by_x, by_y) = (of_x[1][i] * of_y[0][j], of_x[0][i] * of_y[1][j]);
+                for lane in lanes {
+                    let (mut value, mut slope) = (0.0, 0.0);
+                    for (k, row) in rows.iter().enumerate() {
+                        value += reach.value[k] * row[at];
+                        slope += reach.slope[k] * row[at];
+                    }
+                    let own = &mut curves[*lane];
+                    own[0] += basis * value;
+                    own[1] += basis * slope;
+                    own[2] += by_x * value;
+                    own[3] += by_y * value;
+                    at += 1;
+                }
+            }
+        }
+        curves
+    }
+}
+
+/// Degrees in x and y of the terms of a parity: up to `degree` even ones, one more for the odd ones.
+fn terms(degree: usize, parity: usize) -> impl Iterator<Item = [usize; 2]> {
+    let top = degree + parity;
+    (0..=top)
+        .flat_map(move |i| (0..=top - i).map(move |j| [i, j]))
+        .filter(move |[i, j]| (i + j) % 2 == parity)
+}
+
+/// Polynomials and their derivatives at a value from -1 to 1, by their recurrences.
+fn legendre(x: f64) -> Polynomials {
+    let mut found = [[0.0; LARGEST_DEGREE + 2]; 2];
+    found[0][0] = 1.0;
+    found[0][1] = x;
+    found[1][1] = 1.0;
+    for n in 2..LARGEST_DEGREE + 2 {
+        let order = n as f64;
+        found[0][n] =
+            ((2.0 * order - 1.0) * x * found[0][n - 1] - (order - 1.0) * found[0][n - 2]) / order;
+        found[1][n] = found[1][n - 2] + (2.0 * order - 1.0) * found[0][n - 1];
+    }
+    found
+}
+
+/// Direction of a film and its lanes.
+struct Sample {
+    x: f64,
+    y: f64,
+    lanes: [f64; 5],
+}
+
+fn sample(eps: f64, [along, across]: [f64; 2], node: &[f64; FIGURES]) -> Sample {
+    let size = eps.hypot(along).hypot(across);
+    Sample {
+        x: along / size,
+        y: across / size,
+        lanes: [
+            node[0] / eps,
+            node[1] / eps,
+            node[2] / size,
+            node[3] / size,
+            node[4] / size,
+        ],
+    }
+}
+
+/// Coefficients of the terms of a parity, its lanes side by side: normal equations, whose condition
+/// is that of Legendre polynomials on a disc, by their Cholesky factor.
+fn least_squares(degree: usize, parity: usize, samples: &[Sample]) -> Vec<f64> {
+    let terms: Vec<_> = terms(degree, parity).collect();
+    let (n, lanes) = (terms.len(), LANES[parity]);
+    let mut matrix = vec![0.0; n * n];
+    let mut right = vec![0.0; n * lanes.len()];
+    for sample in samples {
+        let [of_x, of_y] = [legendre(sample.x), legendre(sample.y)];
+        let basis: Vec<_> = terms
+            .iter()
+            .map(|[i, j]| of_x[0][*i] * of_y[0][*j])
+            .collect();
+        for row in 0..n {
+            for column in 0..n {
+                matrix[row * n + column] += basis[row] * basis[column];
+            }
+            for (k, lane) in lanes.iter().enumerate() {
+                right[row * lanes.len() + k] += basis[row] * sample.lanes[*lane];
+            }
+        }
+    }
+    for row in 0..n {
+        for column in 0..=row {
+            let known: f64 = (0..column)
+                .map(|k| matrix[row * n + k] * matrix[column * n + k])
+                .sum();
+            let rest = matrix[row * n + column] - known;
+            matrix[row * n + column] = if row == column {
+                rest.sqrt()
+            } else {
+                rest / matrix[column * n + column]
+            };
+        }
+    }
+    for lane in 0..lanes.len() {
+        let at = |row: usize| row * lanes.len() + lane;
+        for row in 0..n {
+            let known: f64 = (0..row).map(|k| matrix[row * n + k] * right[at(k)]).sum();
+            right[at(row)] = (right[at(row)] - known) / matrix[row * n + row];
+        }
+        for row in (0..n).rev() {
+            let known: f64 = (row + 1..n)
+                .map(|k| matrix[k * n + row] * right[at(k)])
+                .sum();
+            right[at(row)] = (right[at(row)] - known) / matrix[row * n + row];
+        }
+    }
+    right
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// A wedge that a cone describes exactly, with a part of second order.
+    fn wedge(eps: f64, [along, across]: [f64; 2]) -> [f64; FIGURES] {
+        let size = eps.hypot(along).hypot(across);
+        let (x, y) = (along / size, across / size);
+        [
+            eps * (0.3 * x * y + size),
+            eps * (1.5 - 0.2 * x * x),
+            size * (x + 0.4 * y * y * y + size * y),
+            size * (y - x * x * y),
+            size * (2.0 + x * x),
+            0.0,
+        ]
+    }
+
+    fn recipe() -> SuperpositionRecipe {
+        SuperpositionRecipe {
+            centre_nodes: [5, 4],
+            ..SuperpositionRecipe::tilted(2.0)
+        }
+    }
+
+    #[test]
+    fn what_it_is_made_of_it_reproduces() {
+        let recipe = recipe();
+        let nodes: Vec<_> = (states(&recipe).iter())
+            .map(|(eps, tilts)| wedge(*eps, *tilts))
+            .collect();
+        let centre = Centre::through(&recipe, &nodes).unwrap().unwrap();
+        let h = 1e-7;
+        // Below the first size, on the rim, aligned, and beyond what is solved.
+        for (eps, along, across) in [
+            (0.001, 0.002, -0.001),
+            (0.0, 0.1, 0.2),
+            (0.2, 0.0, 0.0),
+            (0.05, -0.4, 0.1),
+            (0.3, 0.2, -0.3),
+        ] {
+            let found = centre.lookup(eps, [along, across]);
+            // Forces over eps are even in it.
+            let expected = wedge(eps.max(1e-9), [along, across]);
+            for (k, expected) in expected.into_iter().enumerate().take(4) {
+                let factor = if k < 2 { eps.max(1e-9) } else { 1.0 };
+                assert!((found.values[k] - expected / factor).abs() < 1e-7);
+                let at = |e: f64, a: f64, c: f64| {
+                    centre.lookup(eps + e, [along + a, across + c]).values[k]
+                };
+                let differences = [
+                    (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
+                    (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
+                    (at(0.0, 0.0, h) - at(0.0, 0.0, -h)) / (2.0 * h),
+                ];
+                for (slope, difference) in found.slopes[k].iter().zip(differences) {
+                    assert!((slope - difference).abs() < 2e-4 * (1.0 + slope.abs()));
+                }
+            }
+            assert!((found.peak - expected[4]).abs() < 1e-7);
+        }
+        assert!(
+            centre
+                .lookup(0.0, [0.0; 2])
+                .values
+                .iter()
+                .all(|value| value.is_finite())
+        );
+    }
+
+    #[test]
+    fn it_joins_with_a_continuous_slope() {
+        for size in [JOIN, SIZES[1]] {
+            let [share, slope] = Centre::share_of_table(size);
+            assert!((share - f64::from(u8::from(size > JOIN))).abs() < 1e-12);
+            assert!(slope.abs() < 1e-12);
+        }
+        let middle = |size| Centre::share_of_table(size)[0];
+        let slope = (middle(0.5 + 1e-6) - middle(0.5 - 1e-6)) / 2e-6;
+        assert!((Centre::share_of_table(0.5)[1] - slope).abs() < 1e-6);
+    }
+}
