@@ -150,3 +150,41 @@ fn the_own_model_is_left_out_of_the_comparison() {
     assert!(study.film.compare.is_empty());
     assert_eq!(study.warnings.len(), 2);
 }
+
+/// A journal that tilts is solved on line where the closure is `gumbel`, at rest and over a cycle.
+#[test]
+fn a_journal_that_tilts_is_solved_on_line() {
+    let held = format!(
+        "{FILM}tilt = [\"0.2 mrad\", \"-0.5 mrad\"]\ntilt_rate = [\"0 rad/s\", \"3 rad/s\"]\n"
+    );
+    let free = format!("{STEADY}moment = [\"3 N.m\", \"6 N.m\"]\n");
+    for (analysis, duty) in [("film", held), ("equilibrium", free)] {
+        let of = |model: &str| {
+            let film = format!("cavitation = \"gumbel\"\n{model}");
+            summary(&results(&text(analysis, "", &film, &duty)))
+        };
+        let online = of("model = \"online\"\n");
+        let field = of("grid = [192, 48]\n");
+        assert_eq!(online["status"], "converged", "{}", online["messages"]);
+        for key in ["minimum_film_thickness_m", "power_loss_w", "side_flow_m3_s"] {
+            let [found, expected] = [&online, &field].map(|from| from[key].as_f64().unwrap());
+            let off = (found / expected - 1.0).abs();
+            assert!(off < 5e-3, "{analysis} {key}: {found} {expected}");
+        }
+        let moment = |from: &Value| from["moment_n_m"][1].as_f64().unwrap();
+        let off = (moment(&online) / moment(&field) - 1.0).abs();
+        assert!(
+            moment(&field).abs() > 1.0 && off < 5e-3,
+            "{analysis}: {off}"
+        );
+    }
+    let film = "model = \"online\"\ncavitation = \"reynolds\"\n";
+    let duty = format!("{STEADY}moment = [\"3 N.m\", \"0 N.m\"]\n");
+    let text = text("equilibrium", "", film, &duty);
+    let errors = study_from_text("study.toml", &text, Path::new("")).unwrap_err();
+    let told = errors.to_string();
+    assert!(
+        told.contains("no tilt") && told.contains("gumbel"),
+        "{told}"
+    );
+}
