@@ -328,7 +328,7 @@ pub const KEYS: &[Key] = &[
 
     key("film", Table, Optional, CLOSED, "How the film is modelled.", ""),
     key("film.model", Choice(&["field", "online", "database", "superposition", "short-bearing", "mobility", "long-bearing"], &[]), Default("field"), ALL,
-        "field: Reynolds equation on a grid; online: the film of a plain aligned bearing without feeds, solved in microseconds with the closure gumbel (its default) or reynolds; database: the same bearing looked up in the films of film.database, with their closure; superposition: the same with wedge and squeeze stored apart and their forces added, as in the paper, for comparison; the others are closed forms, estimates outside their range.", "\"field\""),
+        "field: Reynolds equation on a grid; online: the film of a plain bearing without feeds, solved in microseconds with the closure gumbel (its default), whose journal may tilt, or reynolds, aligned; database: the same bearing looked up in the films of film.database, with their closure; superposition: the same with wedge and squeeze stored apart and their forces added, as in the paper, for comparison; the others are closed forms, estimates outside their range.", "\"field\""),
     key("film.database", Files, Optional, PHYSICAL,
         "HDF5 file beside the study, or a list of files, that hold the films of the models looked up in databases; `sommerfeld database build` or an analysis \"database\" makes one. Of several files each bearing takes the first that holds its closure and its width over diameter.", "\"big-end-films/table.h5\""),
     key("film.feeds", Choice(&["used", "left-out"], &[]), Default("used"), PHYSICAL,
