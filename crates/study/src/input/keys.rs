@@ -551,7 +551,6 @@ pub const KEYS: &[Key] = &[
     key("orbit.closure_tolerance", Number(Range::above(0.0, 0.1, "")), Default("1e-4"), MACHINE,
         "An orbit is closed when two cycles differ by less, over the radial clearance.", "1e-4"),
 
-    planned("database", "A hydrodynamic database."),
 
     key("sweep", Table, Required, SWEEP, "Many cases of a base study, some of whose keys vary.", ""),
     key("sweep.base", Text, Required, SWEEP, "The base study, beside this one; the files it names lie beside it.", "\"study.toml\""),
