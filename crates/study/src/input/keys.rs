@@ -1,7 +1,7 @@
 //! The keys of the study file, schema 1.
 
 use super::schema::Kind::{
-    Choice, Files, Flag, Grid, Integer, Integers, Limit, List, NotBuilt, Number, Numbers, Pair,
+    Choice, Files, Flag, Grid, Integer, Integers, Limit, List, Number, Numbers, Pair,
     Quantity, QuantityOrLaw, Table, TableList, TableOrList, Text, Vary, Words,
 };
 use super::schema::Mode::{
@@ -136,11 +136,6 @@ const fn key(
         meaning,
         typical,
     }
-}
-
-/// A key that is planned and refused by name.
-const fn planned(path: &'static str, meaning: &'static str) -> Key {
-    key(path, NotBuilt, Optional, ALL, meaning, "")
 }
 
 /// Every key of the study file, in the order in which `explain` and the schema show them.
@@ -550,7 +545,6 @@ pub const KEYS: &[Key] = &[
     key("orbit.maximum_cycles", Integer(1, 1000), Default("8"), MACHINE, "Cycles after which an orbit that has not closed is given up.", "8"),
     key("orbit.closure_tolerance", Number(Range::above(0.0, 0.1, "")), Default("1e-4"), MACHINE,
         "An orbit is closed when two cycles differ by less, over the radial clearance.", "1e-4"),
-
 
     key("sweep", Table, Required, SWEEP, "Many cases of a base study, some of whose keys vary.", ""),
     key("sweep.base", Text, Required, SWEEP, "The base study, beside this one; the files it names lie beside it.", "\"study.toml\""),
