@@ -1,8 +1,8 @@
 //! The keys of the study file, schema 1.
 
 use super::schema::Kind::{
-    Choice, Files, Flag, Grid, Integer, Integers, Limit, List, Number, Numbers, Pair,
-    Quantity, QuantityOrLaw, Table, TableList, TableOrList, Text, Vary, Words,
+    Choice, Files, Flag, Grid, Integer, Integers, Limit, List, Number, Numbers, Pair, Quantity,
+    QuantityOrLaw, Table, TableList, TableOrList, Text, Vary, Words,
 };
 use super::schema::Mode::{
     self, Coefficients, Database, Dimensionless, Engine, Equilibrium, Film, LoadCycle, Shaft, Sweep,
