@@ -391,7 +391,8 @@ def test_running_in_is_the_table_and_the_worn_shell(worn):
             name, unit = column.rstrip("]").split("[")
             assert np.allclose(group[name][:], values, rtol=1e-12, equal_nan=True), name
             assert group[name].attrs["units"] == {"-": "1"}.get(unit, unit)
-            assert group[name].dims[0][0].name == group["time"].name or name == "time"
+            # The axis itself is a scale and has none.
+            assert name == "time" or group[name].dims[0][0].name == group["time"].name
         assert group["time"][-1] == 14400.0 and len(group["time"]) > 2
         depth = group["shell/worn_depth"]
         assert depth.shape == file["accumulated/shell/wear_load"].shape
@@ -400,7 +401,10 @@ def test_running_in_is_the_table_and_the_worn_shell(worn):
         volume = surface_integral(depth[:], group["shell"], radius, width)
         assert abs(volume / group["worn_volume"][-1] - 1) < 1e-9
         roughness = group["shell_roughness"][:]
-        assert roughness[0] == 1.2e-6 and np.all(np.diff(roughness) < 0)
+        # It falls until no summit is left above the mean plane: sqrt(1/2 - 1/(2 pi)) of what it was.
+        plateau = 1.2e-6 * np.sqrt(0.5 - 0.5 / np.pi)
+        assert roughness[0] == 1.2e-6 and np.all(np.diff(roughness) <= 0)
+        assert abs(roughness[-1] / plateau - 1) < 1e-9
 
 
 def test_bearings_of_an_engine_wear_and_are_warm(worn_engine):
@@ -412,7 +416,9 @@ def test_bearings_of_an_engine_wear_and_are_warm(worn_engine):
             own = group[bearing["name"]]
             depth = own["accumulated/shell/wear_depth_per_hour"]
             assert depth.attrs["units"] == "m" and depth.ndim == 2
-            assert depth[:].max() == bearing["wear_depth_per_hour_m"] == table["wear_depth_per_hour[m]"][row]
+            # To the last digit but one: the summary's is a product in another order.
+            assert abs(depth[:].max() / bearing["wear_depth_per_hour_m"] - 1) < 4e-16
+            assert bearing["wear_depth_per_hour_m"] == table["wear_depth_per_hour[m]"][row]
             assert bearing["wear_volume_per_hour_m3"] == table["wear_volume_per_hour[m3]"][row]
             assert own["accumulated/journal/friction_energy"][:].max() > 0
             warm = own["heat/effective_temperature"]
