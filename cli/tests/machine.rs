@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Table, sommerfeld, summary};
-use rusqlite::Connection;
+use rusqlite::{Connection, OpenFlags};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -164,19 +164,41 @@ fn random(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Runs until it is killed at a time, or ends before; the way it ended tells which.
-fn run_for(mut child: Child, time: Duration) -> Option<i32> {
-    let deadline = Instant::now() + time;
+/// When a run is killed: with so many orbits recorded, or so long after its start.
+enum Kill {
+    Orbits(usize),
+    After(Duration),
+}
+
+/// Runs until it is killed, or ends before; the way it ended tells which.
+fn run_until(mut child: Child, kill: &Kill, results: &Path) -> Option<i32> {
+    let start = Instant::now();
     loop {
         if let Some(status) = child.try_wait().unwrap() {
             return status.code();
         }
-        if Instant::now() >= deadline {
+        let due = match kill {
+            Kill::Orbits(count) => recorded(results) >= *count,
+            Kill::After(time) => start.elapsed() >= *time,
+        };
+        if due {
             child.kill().unwrap();
             return child.wait().unwrap().code();
         }
         std::thread::sleep(Duration::from_millis(2));
     }
+}
+
+/// How many orbits a run at work has recorded; its ledger is only looked at, never written.
+fn recorded(results: &Path) -> usize {
+    // Without its log the ledger is being made or taken away.
+    if !results.join("ledger.sqlite-wal").exists() {
+        return 0;
+    }
+    let look = OpenFlags::SQLITE_OPEN_READ_ONLY;
+    let count = Connection::open_with_flags(results.join("ledger.sqlite"), look)
+        .and_then(|ledger| ledger.query_row("SELECT count(*) FROM findings", [], |row| row.get(0)));
+    count.unwrap_or(0)
 }
 
 #[test]
@@ -204,10 +226,14 @@ fn killed_at_any_time_an_engine_is_taken_up_where_it_stood() {
         let mut known: Vec<Found> = Vec::new();
         let (mut kills, mut kills_amid) = (0, 0);
         let ended = (0..60).find_map(|_| {
-            // Amid the orbits at first; then at any time, with enough for the files, which take as long.
-            let (from, reach) = if kills < 6 { (0.22, 0.28) } else { (0.02, 1.5) };
-            let share = from + reach * random(&mut seed);
-            let code = run_for(desk.start(&out, &arguments), duration.mul_f64(share));
+            // Amid the orbits at first; then at any time, files being written among them.
+            let kill = if kills < 6 {
+                let ahead = (ORBITS - known.len()).max(2) as f64;
+                Kill::Orbits(known.len() + 1 + (0.5 * ahead * random(&mut seed)) as usize)
+            } else {
+                Kill::After(duration.mul_f64(0.02 + 1.5 * random(&mut seed)))
+            };
+            let code = run_until(desk.start(&out, &arguments), &kill, &results);
             if code.is_some() {
                 return code;
             }
