@@ -289,14 +289,21 @@ pub fn find(family: &str, name: &str) -> Option<Model> {
         .copied()
 }
 
-/// The models that a bearing chooses: cavitation, inlet and shear of the ruptured film, surfaces, shell.
+/// The models that a bearing chooses. On the grid: cavitation, inlet and shear of the ruptured film,
+/// surfaces, shell; any other model of the film has the closure alone to choose.
 #[must_use]
-pub fn of_bearing(bearing: &Bearing) -> Vec<Model> {
+pub fn of_bearing(bearing: &Bearing, is_field: bool) -> Vec<Model> {
     let cavitation: &[&str] = match bearing.cavitation {
         Cavitation::Gumbel => &["gumbel"],
         Cavitation::Reynolds => &["reynolds"],
         Cavitation::MassConserving => &["mass-conserving", "film-fraction"],
     };
+    let closure = cavitation.iter().map(|name| ("cavitation", *name));
+    if !is_field {
+        return closure
+            .filter_map(|(family, name)| find(family, name))
+            .collect();
+    }
     let inlet = match bearing.inlet {
         Inlet::Cyclic => "cyclic",
         Inlet::MaxFilmLine { .. } => "max-film-line",
@@ -305,9 +312,7 @@ pub fn of_bearing(bearing: &Bearing) -> Vec<Model> {
         FilmShear::FullWidth => "full-width",
         FilmShear::FilmFraction => "film-fraction",
     };
-    cavitation
-        .iter()
-        .map(|name| ("cavitation", *name))
+    closure
         .chain([("inlet", inlet), ("film_shear", shear)])
         .chain(surface_and_shell(bearing))
         .filter_map(|(family, name)| find(family, name))

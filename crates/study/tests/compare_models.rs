@@ -78,6 +78,13 @@ fn a_compared_model_is_the_study_with_that_model() {
             let compared = &found["comparison"][model];
             assert_eq!(compared["status"], "converged", "{analysis} {model}");
             is_of(compared, &found, &by_hand, 4);
+            // Whatever the model, the closure stands among what was used.
+            let used = by_hand["models"].as_array().unwrap();
+            let closures = used.iter().filter(|used| used["family"] == "cavitation");
+            let names: Vec<&str> = closures
+                .map(|used| used["name"].as_str().unwrap())
+                .collect();
+            assert_eq!(names, ["gumbel"], "{analysis} {model}");
         }
         let page = render(&all).unwrap();
         assert!(page.contains("Film models side by side"), "{analysis}");

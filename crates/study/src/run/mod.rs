@@ -396,14 +396,6 @@ fn header(study: &Study) -> Header {
     }
 }
 
-/// The closures of the databases that the films of a study are looked up in.
-fn models_of_databases(study: &Study) -> Vec<Model> {
-    let closures = databases_of(study).into_iter().map(|facts| facts.closure);
-    closures
-        .filter_map(|closure| models::find("cavitation", &closure))
-        .collect()
-}
-
 fn models_of(study: &Study) -> Vec<Model> {
     let mut used: Vec<Model> = models::find("film", study.film.model.name())
         .into_iter()
@@ -421,13 +413,10 @@ fn models_of(study: &Study) -> Vec<Model> {
             used.extend(models::find("cavitation", closure_name(plan.closure())));
             used.extend(models::find("inlet", "cyclic"));
         }
-        Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing())),
+        Subject::Dimensionless(film) => used.extend(models::of_bearing(&film.bearing(), true)),
         Subject::Bearing(case) => {
-            if study.film.model.is_field() {
-                used.extend(models::of_bearing(&case.bearing));
-            }
-            used.extend(models_of_databases(study));
             let is_field = study.film.model.is_field();
+            used.extend(models::of_bearing(&case.bearing, is_field));
             used.extend(models::of_oil(&case.lubricant, is_field));
             used.extend(models::find("heat", case.heat.name()));
         }

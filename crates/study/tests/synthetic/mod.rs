@@ -74,7 +74,7 @@ pub fn header(analysis: &str, title: &str) -> Header {
         value: value.into(),
     };
     let mut used = vec![models::find("film", "field").unwrap()];
-    used.extend(models::of_bearing(&bearing()));
+    used.extend(models::of_bearing(&bearing(), true));
     used.push(models::find("viscosity", "constant").unwrap());
     Header {
         analysis: analysis.into(),

@@ -197,15 +197,11 @@ fn load_model(plan: &MachinePlan) -> String {
 /// The models a machine uses.
 pub(super) fn models_of_machine(plan: &MachinePlan, settings: &FilmSettings) -> Vec<Model> {
     let mut used = Vec::new();
-    if settings.model.is_field() {
-        for bearing in &plan.bearings {
-            let models = models::of_bearing(&bearing.bearing);
-            used.extend(
-                models
-                    .into_iter()
-                    .filter(|model| !used.contains(model))
-                    .collect::<Vec<_>>(),
-            );
+    for bearing in &plan.bearings {
+        for model in models::of_bearing(&bearing.bearing, settings.model.is_field()) {
+            if !used.contains(&model) {
+                used.push(model);
+            }
         }
     }
     used.extend(models::of_oil(&plan.lubricant, settings.model.is_field()));
