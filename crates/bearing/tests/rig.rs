@@ -6,11 +6,13 @@
     reason = "tests stop at the first surprise"
 )]
 
-mod common;
 #[path = "rig/bodies.rs"]
 mod bodies;
+mod common;
 #[path = "rig/mixing.rs"]
 mod mixing;
+#[path = "rig/rows.rs"]
+mod rows;
 
 use bodies::Compliance;
 use common::{greenwood_tripp, plain_bearing, rig_finish, text_table};
@@ -33,6 +35,10 @@ const SPEEDS: [f64; 14] = [
     3000.0, 2000.0, 1500.0, 1000.0, 700.0, 500.0, 400.0, 350.0, 300.0, 275.0, 250.0, 225.0, 200.0,
     150.0,
 ];
+
+/// Where bodies by finite elements are asked, for it takes long.
+const MEASURED: [f64; 8] = [3000.0, 1000.0, 500.0, 400.0, 300.0, 250.0, 200.0, 150.0];
+const FEW: [f64; 5] = [3000.0, 500.0, 300.0, 200.0, 150.0];
 
 /// Diameter and width, m, and Young's modulus of what holds the shell, Pa.
 struct Place {
@@ -61,7 +67,7 @@ enum Bodies {
     Layer(f64, f64),
     /// Columns as stiff as the bodies of each bearing, times this.
     Columns(f64),
-    /// By finite elements; names of rod and bracket.
+    /// By finite elements: the names of rod and bracket in `compliance.csv`.
     Elements(&'static str, &'static str),
 }
 
@@ -80,6 +86,8 @@ struct Rig {
     /// Tilt of the journal in the supports, rad.
     support_tilt: f64,
     cells: [usize; 2],
+    /// The fastest first, 1/min.
+    speeds: &'static [f64],
 }
 
 impl Rig {
@@ -97,6 +105,7 @@ impl Rig {
             cavitation: Cavitation::MassConserving,
             support_tilt: 0.0,
             cells: [64, 16],
+            speeds: &SPEEDS,
         }
     }
 
@@ -104,6 +113,15 @@ impl Rig {
     fn elastic() -> Self {
         Self {
             bodies: Bodies::Columns(1.0),
+            ..Self::as_in_the_source()
+        }
+    }
+
+    /// Between bodies by finite elements, of the sizes that the source states last.
+    fn by_elements() -> Self {
+        Self {
+            bodies: Bodies::Elements("rod", "bracket"),
+            speeds: &FEW,
             ..Self::as_in_the_source()
         }
     }
@@ -200,15 +218,32 @@ impl Rig {
         speeds.iter().map(&mut at).collect()
     }
 
-    /// The same between bodies by finite elements: the bore is moved until it is where the pressures of film
-    /// and contact push it beyond the columns.
+    /// The test bearing, or else a support, at rest at each speed.
+    fn rests_of(&self, is_tested: bool, load: f64) -> Vec<Equilibrium> {
+        let (bearing, load, tilt) = if is_tested {
+            (self.tested(load), load, 0.0)
+        } else {
+            (self.support(load), 0.5 * load, self.support_tilt)
+        };
+        let Bodies::Elements(rod, bracket) = self.bodies else {
+            return self.rests(&bearing, load, tilt, self.speeds);
+        };
+        let bodies = if is_tested {
+            Compliance::of(&[(rod, TESTED.modulus / self.rod), ("shaft-in-rod", 1.0)])
+        } else {
+            Compliance::of(&[(bracket, 1.0), ("shaft-in-bracket", 1.0)])
+        };
+        self.rests_in_bodies(&bearing, load, &bodies, is_tested)
+    }
+
+    /// The same as [`Rig::rests`] between bodies by finite elements: the bore is moved until it is where the
+    /// pressures of film and contact push it beyond the columns.
     fn rests_in_bodies(
         &self,
         bearing: &Bearing,
         load: f64,
         bodies: &Compliance,
-        is_even: bool,
-        speeds: &[f64],
+        is_aligned: bool,
     ) -> Vec<Equilibrium> {
         let columns = bearing.elasticity.compliance();
         let conditions = Conditions {
@@ -220,13 +255,12 @@ impl Rig {
         let mut at = |rpm: &f64| {
             let mut mixing = Mixing::default();
             let mut shape = Shape::default();
-            let mut first = true;
-            for k in 0..80 {
+            for step in 0..80 {
                 let bearing = Bearing {
                     bore: shape.clone(),
                     ..bearing.clone()
                 };
-                let mut film = if is_even {
+                let mut film = if is_aligned {
                     FilmSolver::aligned(&bearing, &self.oil, self.cells).unwrap()
                 } else {
                     FilmSolver::new(&bearing, &self.oil, self.cells).unwrap()
@@ -243,14 +277,10 @@ impl Rig {
                 let mut left = bodies.opening(&field, &pressure);
                 let beyond = left.iter_mut().zip(&pressure).zip(&moved);
                 beyond.for_each(|((u, p), was)| *u -= columns * p + was);
-                if std::env::var("RIG_LOUD").is_ok() {
-                    let largest = left.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-                    println!("   {rpm} {k} {largest:.2e} {:.3}", rest.reaction.friction_torque_journal);
-                }
-                if !first && left.iter().all(|missing| missing.abs() < 3e-9) {
+                // the first film of a speed has not seen the shape of the last
+                if step > 0 && left.iter().all(|missing| missing.abs() < 3e-9) {
                     return rest;
                 }
-                first = false;
                 moved = mixing.next(&moved, left);
                 let (angles, axial) = (field.angles.to_vec(), field.axial.to_vec());
                 let table = ProfileTable::new(angles, axial, moved.clone()).unwrap();
@@ -258,7 +288,7 @@ impl Rig {
             }
             panic!("{rpm} 1/min: the bodies do not settle");
         };
-        speeds.iter().map(&mut at).collect()
+        self.speeds.iter().map(&mut at).collect()
     }
 }
 
@@ -315,29 +345,36 @@ struct Speed {
     film: f64,
 }
 
-/// The measured speeds under a load of the test bearing, the slowest first.
+/// The measured ones of the speeds of the rig under a load of the test bearing, the slowest first.
 fn over_speed(rig: &Rig, load: f64) -> Vec<Speed> {
-    let tested = rig.rests(&rig.tested(load), load, 0.0, &SPEEDS);
-    let support = rig.rests(&rig.support(load), 0.5 * load, rig.support_tilt, &SPEEDS);
+    over(
+        rig,
+        load,
+        &rig.rests_of(true, load),
+        &rig.rests_of(false, load),
+    )
+}
+
+/// The same of the test bearing and a support at rest.
+fn over(rig: &Rig, load: f64, tested: &[Equilibrium], support: &[Equilibrium]) -> Vec<Speed> {
     let mut speeds: Vec<Speed> = text_table("sander-rig/reference.csv")
         .iter()
         .map(|row| [1, 2, 3].map(|k| row[k].parse::<f64>().unwrap()))
         .filter(|[of, ..]| *of == load)
-        .map(|[_, rpm, measured]| {
-            let k = SPEEDS.iter().position(|speed| *speed == rpm).unwrap();
+        .filter_map(|[_, rpm, measured]| {
+            let k = rig.speeds.iter().position(|speed| *speed == rpm)?;
             let torque = |rests: &[Equilibrium]| rests[k].reaction.friction_torque_journal;
             let [x, y] = tested[k].reaction.contact_force;
-            Speed {
+            Some(Speed {
                 rpm,
                 measured,
-                torque: torque(&tested) + 2.0 * torque(&support),
+                torque: torque(tested) + 2.0 * torque(support),
                 contact: x.hypot(y) / load,
                 film: tested[k].summary.minimum_film_thickness.value,
-            }
+            })
         })
         .collect();
     speeds.sort_by(|a, b| a.rpm.total_cmp(&b.rpm));
-    assert_eq!(speeds.len(), if load == LOAD { 8 } else { 7 });
     speeds
 }
 
@@ -383,6 +420,7 @@ fn the_measured_torque_lies_between_rigid_and_elastic_bodies() {
             assert!(between, "{what}, measured {}", soft.measured);
         }
     }
+    assert_eq!([rigid.len(), elastic.len()], [8, 8]);
     assert_eq!(level(&rigid), [500.0, 1000.0, 3000.0]);
     assert_eq!(level(&elastic), [300.0, 400.0, 500.0, 1000.0, 3000.0]);
     assert_eq!([least(&rigid), least(&elastic)], [1000.0, 300.0]);
@@ -407,123 +445,50 @@ fn columns_carry_the_load_of_hertz_over_the_same_half_width() {
     }
 }
 
+/// Columns as soft as a Hertz contact stand for elastic bodies: those of the sizes of the source, by finite
+/// elements, with ends, neighbours and a shaft that bends, have their torque within a fifth of the bar, on
+/// these coarse cells as on the finer ones of the page of the case, and do not meet the bar either.
 #[test]
-#[ignore = "exploration"]
-fn explore() {
-    let get = |name: &str, or: f64| std::env::var(name).map_or(or, |v| v.parse().unwrap());
-    let name = |name: &str, or: &'static str| -> &'static str { std::env::var(name).map_or(or, |v| v.leak()) };
-    let speeds: Vec<f64> = name("RIG_SPEEDS", "3000,1000,500,400,300,250,200,150").split(',').map(|v| v.parse().unwrap()).collect();
-    let load = get("RIG_LOAD", LOAD);
-    let mut rig = Rig::elastic();
-    rig.relative_clearance = get("RIG_PSI", 1e-3);
-    rig.bodies = Bodies::Elements("rod", "bracket");
-    rig.cells = [get("RIG_N", 64.0) as usize, get("RIG_M", 16.0) as usize];
-    rig.finish = finish(get("RIG_RJ", 0.2e-6), get("RIG_RS", 0.34e-6), get("RIG_H", 0.6e-6));
-    if let Finish::Rough(rough) = &mut rig.finish {
-        rough.boundary_friction = get("RIG_MU", 0.02);
+fn finite_elements_have_the_torque_of_columns() {
+    let coarse = |rig: Rig| Rig {
+        cells: [48, 8],
+        speeds: &[500.0, 150.0],
+        ..rig
+    };
+    let elements = over_speed(&coarse(Rig::by_elements()), LOAD);
+    let columns = over_speed(&coarse(Rig::elastic()), LOAD);
+    print("finite elements", &elements);
+    print("columns", &columns);
+    for (elements, columns) in elements.iter().zip(&columns) {
+        let apart = (elements.torque - columns.torque).abs();
+        assert!(apart < 0.2 * 0.43, "{}: {apart}", elements.rpm);
     }
-    let soft = get("RIG_SOFT", 1.0);
-    let in_rod = Compliance::of(&[(name("RIG_ROD", "rod"), soft * get("RIG_RODSOFT", 1.0)), ("shaft-in-rod", soft)]);
-    let in_bracket = Compliance::of(&[(name("RIG_BRACKET", "bracket"), soft), ("shaft-in-bracket", soft)]);
-    let time = std::time::Instant::now();
-    let tested = rig.rests_in_bodies(&rig.tested(load), load, &in_rod, true, &speeds);
-    println!("{:?}", time.elapsed());
-    let support = if get("RIG_SUPPORT", 1.0) > 0.0 { rig.rests_in_bodies(&rig.support(load), 0.5 * load, &in_bracket, false, &speeds) } else { rig.rests(&rig.support(load), 0.5 * load, 0.0, &speeds) };
-    println!("{:?}", time.elapsed());
-    for (k, rpm) in speeds.iter().enumerate() {
-        let of = |r: &Equilibrium, load: f64| { let [x, y] = r.reaction.contact_force; (r.reaction.friction_torque_journal, x.hypot(y) / load, 1e6 * r.summary.minimum_film_thickness.value) };
-        let (a, b) = (of(&tested[k], load), of(&support[k], 0.5 * load));
-        println!("{rpm} torque {:.3} tested {a:.3?} support {b:.3?}", a.0 + 2.0 * b.0);
-    }
+    assert_eq!(level(&elements), [500.0]);
 }
 
-/// One assumption at a time: `cargo test -p sommerfeld-bearing --test rig -- --ignored --nocapture`.
+/// The file of the finite elements is that of an elastic body: it is the same whichever of two waves presses
+/// and whichever is answered, order by order it nears that of a hole in an endless plate and of a half-plane,
+/// and a rod that is an eye gives way to being bent more than that plate.
 #[test]
-#[ignore = "prints the table of validation/sander-rig"]
-fn one_assumption_at_a_time() {
-    let rigid = Rig::as_in_the_source();
-    let elastic = Rig::elastic();
-    let planes = finish(0.13e-6, 0.28e-6, 0.0);
-    let thinning = ShearThinning::Cross {
-        second_newtonian_ratio: 0.5,
-        critical_shear_rate: 3e6,
-        exponent: 0.8,
-        reference: None,
-    };
-    let mut rubbing = surfaces();
-    let mut isotropic = surfaces();
-    if let (Finish::Rough(rubbing), Finish::Rough(isotropic)) = (&mut rubbing, &mut isotropic) {
-        rubbing.boundary_friction = 0.1;
-        isotropic.roughness.peklenik_journal = 1.0;
-        isotropic.roughness.peklenik_shell = 1.0;
+fn bodies_by_finite_elements_have_their_limits() {
+    let rod = Compliance::of(&[("rod", 1.0)]);
+    let shaft = Compliance::of(&[("shaft-in-rod", 1.0)]);
+    for body in [&rod, &shaft, &Compliance::of(&[("bracket", 1.0)])] {
+        assert!(body.asymmetry() < 2e-3, "{}", body.asymmetry());
     }
-    let of = |from: &Rig, change: &dyn Fn(&mut Rig)| {
-        let mut rig = from.clone();
-        change(&mut rig);
-        rig
+    let (radius, shear) = (0.5 * TESTED.diameter, TESTED.modulus / 2.6);
+    let plate = |n: f64| {
+        let kappa = 2.7 / 1.3;
+        radius / (4.0 * shear * (n - 1.0)) * (kappa + (n - 1.0) / (n + 1.0))
     };
-    let columns = |share: f64| of(&elastic, &|r| r.bodies = Bodies::Columns(share));
-    for (name, rig) in [
-        ("rigid bodies", rigid.clone()),
-        (
-            "rigid, 128 x 32 cells",
-            of(&rigid, &|r| r.cells = [128, 32]),
-        ),
-        (
-            "rigid, summits in the mean planes",
-            of(&rigid, &|r| r.finish = planes.clone()),
-        ),
-        ("elastic bodies", elastic.clone()),
-        ("128 x 32 cells", of(&elastic, &|r| r.cells = [128, 32])),
-        ("half as soft", columns(0.5)),
-        ("a quarter as soft", columns(0.25)),
-        ("an eighth as soft", columns(0.125)),
-        (
-            "a layer of 2 mm of 70 GPa",
-            of(&elastic, &|r| r.bodies = Bodies::Layer(2e-3, 70e9)),
-        ),
-        ("rod of steel", of(&elastic, &|r| r.rod = 210e9)),
-        (
-            "summits in the mean planes",
-            of(&elastic, &|r| r.finish = planes.clone()),
-        ),
-        (
-            "marks in no direction",
-            of(&elastic, &|r| r.finish = isotropic.clone()),
-        ),
-        (
-            "`reynolds`",
-            of(&elastic, &|r| r.cavitation = Cavitation::Reynolds),
-        ),
-        (
-            "no pressure coefficient",
-            of(&elastic, &|r| r.oil.viscosity_pressure = PressureLaw::None),
-        ),
-        (
-            "Cross, half at 3e6 1/s",
-            of(&elastic, &|r| r.oil.shear_thinning = thinning),
-        ),
-        (
-            "clearance 0.8e-3",
-            of(&elastic, &|r| r.relative_clearance = 0.8e-3),
-        ),
-        (
-            "clearance 1.3e-3",
-            of(&elastic, &|r| r.relative_clearance = 1.3e-3),
-        ),
-        (
-            "supports tilted by 2e-5",
-            of(&elastic, &|r| r.support_tilt = 2e-5),
-        ),
-        (
-            "boundary friction 0.1",
-            of(&elastic, &|r| r.finish = rubbing.clone()),
-        ),
-    ] {
-        let speeds = over_speed(&rig, LOAD);
-        print(name, &speeds);
-        println!("  level {:?}, least at {}", level(&speeds), least(&speeds));
+    for sine in [false, true] {
+        let over_plate = |n: u32| rod.own(sine, n as usize, 0) / plate(f64::from(n));
+        assert!(over_plate(2) > 1.3, "{}", over_plate(2));
+        assert!((over_plate(6) - 1.0).abs() < 0.06, "{}", over_plate(6));
     }
+    let half_plane = 2.0 * 0.91 * radius / 210e9 / 24.0;
+    let over_half_plane = shaft.own(false, 24, 0) / half_plane;
+    assert!((over_half_plane - 1.0).abs() < 0.1, "{over_half_plane}");
 }
 
 /// The curve of half the load, which has no bar: between both bodies, too, where asperities touch; in the full

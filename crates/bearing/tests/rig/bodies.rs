@@ -71,6 +71,26 @@ impl Compliance {
         self.between(sine, wave, wave)
     }
 
+    /// Largest difference of the energies of two waves of pressure on the displacement of each other, over
+    /// the largest of them all.
+    pub fn asymmetry(&self) -> f64 {
+        // the mean square of a wave over the surface, but for a constant factor
+        let square = |wave: usize| {
+            let (order, degree) = (wave / DEGREES, wave % DEGREES);
+            let around = if order == 0 { 2.0 } else { 1.0 };
+            around / (2 * degree + 1) as f64
+        };
+        let translation = DEGREES;
+        let mut largest: [f64; 2] = [0.0; 2];
+        for term in self.terms.iter().filter(|t| t.pressed != translation) {
+            let other = self.between(term.sine, term.pressed, term.opens) * square(term.pressed);
+            let energy = term.value * square(term.opens);
+            largest[0] = largest[0].max((energy - other).abs());
+            largest[1] = largest[1].max(energy.abs());
+        }
+        largest[0] / largest[1]
+    }
+
     /// By how much the gap of every cell opens under a pressure per cell (Pa), m, up to a translation.
     pub fn opening(&self, field: &FilmField<'_>, pressure: &[f64]) -> Vec<f64> {
         let waves = Waves::of(field);
