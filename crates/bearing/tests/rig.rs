@@ -251,11 +251,11 @@ impl Rig {
             feed_pressures: None,
         };
         let mut moved = vec![0.0; self.cells[0] * self.cells[1]];
+        let mut shape = Shape::default();
         let mut start = None;
         let mut at = |rpm: &f64| {
             let mut mixing = Mixing::default();
-            let mut shape = Shape::default();
-            for step in 0..80 {
+            for _ in 0..80 {
                 let bearing = Bearing {
                     bore: shape.clone(),
                     ..bearing.clone()
@@ -265,8 +265,12 @@ impl Rig {
                 } else {
                     FilmSolver::new(&bearing, &self.oil, self.cells).unwrap()
                 };
-                let request = request(load, *rpm, 0.0, start);
-                let rest = find_equilibrium(&mut film, &bearing, &request, &conditions).unwrap();
+                let near = request(load, *rpm, 0.0, start);
+                let mut rest = find_equilibrium(&mut film, &bearing, &near, &conditions).unwrap();
+                if rest.outcome != Outcome::Converged {
+                    let anew = request(load, *rpm, 0.0, None);
+                    rest = find_equilibrium(&mut film, &bearing, &anew, &conditions).unwrap();
+                }
                 assert_eq!(rest.outcome, Outcome::Converged, "{rpm} 1/min");
                 start = Some(rest.state.position);
                 let field = film.field().unwrap();
@@ -277,8 +281,7 @@ impl Rig {
                 let mut left = bodies.opening(&field, &pressure);
                 let beyond = left.iter_mut().zip(&pressure).zip(&moved);
                 beyond.for_each(|((u, p), was)| *u -= columns * p + was);
-                // the first film of a speed has not seen the shape of the last
-                if step > 0 && left.iter().all(|missing| missing.abs() < 3e-9) {
+                if left.iter().all(|missing| missing.abs() < 3e-9) {
                     return rest;
                 }
                 moved = mixing.next(&moved, left);

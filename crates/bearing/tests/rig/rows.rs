@@ -23,8 +23,12 @@ impl Rig {
         let mut start = None;
         run_in(bearing, &settings, |bearing| {
             let mut film = FilmSolver::aligned(bearing, &self.oil, self.cells)?;
-            let request = request(load, rpm, 0.0, start);
-            let rest = find_equilibrium(&mut film, bearing, &request, &conditions)?;
+            let near = request(load, rpm, 0.0, start);
+            let mut rest = find_equilibrium(&mut film, bearing, &near, &conditions)?;
+            if rest.outcome != Outcome::Converged {
+                let anew = request(load, rpm, 0.0, None);
+                rest = find_equilibrium(&mut film, bearing, &anew, &conditions)?;
+            }
             start = Some(rest.state.position);
             let mut record = CycleWear::new(bearing.radius(), &film.field().unwrap());
             record.see(&film.field().unwrap(), &rest.state, 1.0);
@@ -129,7 +133,7 @@ fn one_assumption_at_a_time() {
     }
 }
 
-/// The rows of finite elements.
+/// The rows of finite elements; `RIG_ROW` chooses one by a part of its name.
 #[test]
 #[ignore = "prints the table of validation/sander-rig; half an hour"]
 fn by_finite_elements() {
@@ -156,6 +160,10 @@ fn by_finite_elements() {
         ("clearance 0.8e-3", of(&|r| r.relative_clearance = 0.8e-3)),
         ("clearance 1.3e-3", of(&|r| r.relative_clearance = 1.3e-3)),
     ] {
+        let asked = std::env::var("RIG_ROW").unwrap_or_default();
+        if !name.contains(&asked) {
+            continue;
+        }
         let speeds = over_speed(&rig, LOAD);
         print(name, &speeds);
         println!("  level {:?}, least at {}", level(&speeds), least(&speeds));
