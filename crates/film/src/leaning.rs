@@ -5,12 +5,13 @@
 //! Once it outweighs conduction, `x = U w u'/G > 2` with the conductance G, those make pressures that
 //! alternate from cell to cell. So the gap leans upstream:
 //! ```text
-//! T = U w (H + beta/2 (H_up - H_down))        beta = x^2/(x^2 + 2 x + 4)
+//! T = U w ((1 - beta) H + beta H_up)        beta = x^2/(x^2 + 2 x + 4)
 //! ```
 //! which keeps the neighbour's pressure from driving oil upstream for every x (`1 - beta <= 2/x`). All of the
 //! gap leans, not the displacement alone: between surfaces pressed together it hardly changes along the flow,
-//! the displacement does. Where the grid resolves the film, x shrinks with the cells, and what is added with
-//! their third power. Faces at steps and beside feeds, whose cells do not give way, stay central.
+//! the displacement does. Where the film is narrower upstream, x is that of the narrower one: behind a
+//! constriction no more leaves than it holds. Where the grid resolves the film, x shrinks with the cells, and
+//! what is added with their third power. Faces at steps and before feeds, which do not give way, stay central.
 //! Reference of such weights: S. V. Patankar, Numerical Heat Transfer and Fluid Flow, Hemisphere 1980, ch. 5.
 
 use crate::gap::Gap;
@@ -30,6 +31,52 @@ fn share(x: f64) -> (f64, f64) {
     }
     let below = x * x + 2.0 * x + 4.0;
     (x * x / below, 2.0 * x * x * (x + 4.0) / (below * below))
+}
+
+/// A face with full derivatives of its gap.
+struct Face<'a> {
+    gap: &'a Gap,
+    passage: Option<&'a Passage>,
+    face: usize,
+    up: usize,
+    down: usize,
+    /// Relative derivative of the conductance by H.
+    conducting: f64,
+    /// Displacement of the cell downstream per pressure.
+    yielding: f64,
+}
+
+impl Face<'_> {
+    /// How far the H that carries moves from that of the face, and the derivatives of this by the H of the
+    /// face, of the cell upstream and of that downstream.
+    fn lean(&self, dragged_over_conductance: f64) -> [f64; 4] {
+        let holding = |k: usize| self.passage.map_or([1.0, 0.0], |p| p.holding_slopes[k]);
+        let carried_slope = self.passage.map_or(1.0, |p| p.carried_slopes[self.face]);
+        let ([by_up, _], [held, curvature]) = (holding(self.up), holding(self.down));
+        let (here, upstream) = (self.gap.around_transport[self.face], self.gap.mean[self.up]);
+        // A film that is narrower upstream conducts no better than there.
+        let narrowing = (upstream / here).clamp(0.0, 1.0);
+        let open = narrowing * narrowing * narrowing;
+        let x = dragged_over_conductance * held * self.yielding / open;
+        let (beta, slope) = share(x);
+        let drop = upstream - here;
+        let (mut log_by_face, mut log_by_up) = (-self.conducting, 0.0);
+        if upstream < here && upstream > 0.0 {
+            log_by_face += 3.0 * carried_slope / here;
+            log_by_up -= 3.0 * by_up / upstream;
+        }
+        let by_share = drop * slope;
+        [
+            beta * drop,
+            by_share * log_by_face - beta * carried_slope,
+            by_share * log_by_up + beta * by_up,
+            if held > 0.0 {
+                by_share * curvature / held
+            } else {
+                0.0
+            },
+        ]
+    }
 }
 
 impl Expansion {
@@ -57,34 +104,35 @@ impl Expansion {
                 by_cells: [0.0; 2],
             };
             let cells = operator.stations_beside(i).map(|i| i.map(|i| i * m + j));
-            if let ([Some(before), Some(behind)], false) = (cells, is_step)
-                && transport * speed > 0.0
-            {
-                let (up, down) = if speed > 0.0 {
+            let ([Some(before), Some(behind)], false) = (cells, is_step) else {
+                operator.leaning[face] = leaning;
+                continue;
+            };
+            if transport * speed > 0.0 {
+                let forth = speed > 0.0;
+                let (up, down) = if forth {
                     (before, behind)
                 } else {
                     (behind, before)
                 };
-                let dragged = speed * grid.axial_widths[j];
-                let holding = |k: usize| passage.map_or([1.0, 0.0], |p| p.holding_slopes[k]);
-                let [held, curvature] = holding(down);
-                let conductance = operator.conductance_around[face];
-                let x = dragged.abs() * held * self.displacement[down][1] / conductance;
-                let (beta, slope) = share(x);
-                let drop = gap.mean[up] - gap.mean[down];
-                let by_share = 0.5 * dragged * drop * slope;
-                operator.transport[face] += 0.5 * dragged * beta * drop;
-                leaning.by_face -= by_share * conducting;
-                let by_up = 0.5 * dragged * beta * holding(up)[0];
-                let mut by_down = -0.5 * dragged * beta * held;
-                if held > 0.0 {
-                    by_down += by_share * curvature / held;
-                }
-                leaning.by_cells = if up == before {
-                    [by_up, by_down]
-                } else {
-                    [by_down, by_up]
+                let pressed = Face {
+                    gap,
+                    passage,
+                    face,
+                    up,
+                    down,
+                    conducting,
+                    yielding: self.displacement[down][1],
                 };
+                let dragged = speed * grid.axial_widths[j];
+                let conductance = operator.conductance_around[face];
+                let [moved, by_face, by_up, by_down] = pressed.lean(dragged.abs() / conductance);
+                operator.transport[face] += dragged * moved;
+                leaning.by_face += dragged * by_face;
+                leaning.by_cells = [by_up, by_down].map(|by| dragged * by);
+                if !forth {
+                    leaning.by_cells.reverse();
+                }
             }
             operator.leaning[face] = leaning;
         }
