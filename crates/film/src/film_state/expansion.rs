@@ -134,6 +134,10 @@ impl FilmState {
         self.is_bending |= moved.abs() > ROUND_OFF * height.abs().max(1e-3);
         let after = before + moved.clamp(-closing, opening);
         self.expansion.displacement[k] = [after, compliance * slope * yielding];
+        if let Some(contact) = self.contact.get_mut(k) {
+            // What the journal feels is what presses at this solution, not at the last.
+            contact[0] = asperities.pressing(rigid + after);
+        }
         if after == next || self.set.cells[k] != Cell::Full {
             return;
         }
@@ -259,6 +263,12 @@ impl Asperities<'_> {
         let by_film = displacement - self.compliance * contact.value / unit;
         let slope = self.compliance * contact.by_gap * clearance / unit;
         (by_film, 1.0 / (1.0 - slope))
+    }
+
+    /// Contact pressure over the unit at a relative gap.
+    fn pressing(&self, height: f64) -> f64 {
+        let pressure = self.finish.contact_pressure(height * self.units.clearance);
+        pressure.value / self.units.pressure
     }
 
     /// Displacement u over the clearance where the film alone makes `by_film`, `u = by_film + k p_c(H + u)`,
