@@ -42,14 +42,14 @@ struct Face<'a> {
     down: usize,
     /// Relative derivative of the conductance by H.
     conducting: f64,
-    /// Displacement of the cell downstream per pressure.
-    yielding: f64,
+    /// Displacement of the cell downstream per reduced pressure, and the relative derivative of that.
+    softness: [f64; 2],
 }
 
 impl Face<'_> {
     /// How far the H that carries moves from that of the face, and the derivatives of this by the H of the
-    /// face, of the cell upstream and of that downstream.
-    fn lean(&self, dragged_over_conductance: f64) -> [f64; 4] {
+    /// face, of the cell upstream and of that downstream, and by the reduced pressure there.
+    fn lean(&self, dragged_over_conductance: f64) -> [f64; 5] {
         let holding = |k: usize| self.passage.map_or([1.0, 0.0], |p| p.holding_slopes[k]);
         let carried_slope = self.passage.map_or(1.0, |p| p.carried_slopes[self.face]);
         let ([by_up, _], [held, curvature]) = (holding(self.up), holding(self.down));
@@ -57,7 +57,8 @@ impl Face<'_> {
         // A film that is narrower upstream conducts no better than there.
         let narrowing = (upstream / here).clamp(0.0, 1.0);
         let open = narrowing * narrowing * narrowing;
-        let x = dragged_over_conductance * held * self.yielding / open;
+        let [softness, stiffening] = self.softness;
+        let x = dragged_over_conductance * held * softness / open;
         let (beta, slope) = share(x);
         let drop = upstream - here;
         let (mut log_by_face, mut log_by_up) = (-self.conducting, 0.0);
@@ -75,14 +76,23 @@ impl Face<'_> {
             } else {
                 0.0
             },
+            by_share * stiffening,
         ]
     }
 }
 
 impl Expansion {
     /// Lets the gap of an operator that is complete lean upstream, and writes the derivatives into it; nothing
-    /// for rigid shells and surfaces that drag nothing along.
-    pub fn lean(&self, grid: &Grid, gap: &Gap, passage: Option<&Passage>, operator: &mut Operator) {
+    /// for rigid shells and surfaces that drag nothing along. `softness` of a cell is its displacement per reduced
+    /// pressure where no asperity holds it, and the relative derivative of that.
+    pub fn lean(
+        &self,
+        grid: &Grid,
+        gap: &Gap,
+        passage: Option<&Passage>,
+        softness: impl Fn(usize) -> [f64; 2],
+        operator: &mut Operator,
+    ) {
         operator.leaning.clear();
         let speed = operator.mean_speed;
         if self.displacement.is_empty() || speed == 0.0 {
@@ -102,6 +112,7 @@ impl Expansion {
             let mut leaning = Leaning {
                 by_face: carrying * transport,
                 by_cells: [0.0; 2],
+                by_pressure: 0.0,
             };
             let cells = operator.stations_beside(i).map(|i| i.map(|i| i * m + j));
             let ([Some(before), Some(behind)], false) = (cells, is_step) else {
@@ -122,11 +133,13 @@ impl Expansion {
                     up,
                     down,
                     conducting,
-                    yielding: self.displacement[down][1],
+                    softness: softness(down),
                 };
                 let dragged = speed * grid.axial_widths[j];
                 let conductance = operator.conductance_around[face];
-                let [moved, by_face, by_up, by_down] = pressed.lean(dragged.abs() / conductance);
+                let [moved, by_face, by_up, by_down, by_pressure] =
+                    pressed.lean(dragged.abs() / conductance);
+                leaning.by_pressure = dragged * by_pressure;
                 operator.transport[face] += dragged * moved;
                 leaning.by_face += dragged * by_face;
                 leaning.by_cells = [by_up, by_down].map(|by| dragged * by);

@@ -158,6 +158,14 @@ impl Expansion {
             let by_cells = leaning.map_or([0.0; 2], |leaning| leaning.by_cells);
             let by_heights = by_cells.map(|by_cell| 0.5 * by_height + by_cell * upstream);
             self.add_displacement(equations, [before, behind], by_heights);
+            if let (Some(leaning), Some(down)) =
+                (leaning, if transport > 0.0 { behind } else { before })
+                && equations.film.set.cells[down] == Cell::Full
+            {
+                let slope = leaning.by_pressure * upstream;
+                let constant = -slope * self.pressure[down];
+                equations.add_flow([before, behind], constant, &[(down, slope)]);
+            }
         }
     }
 

@@ -75,6 +75,8 @@ pub struct Leaning {
     pub by_face: f64,
     /// By the H of the cells before and behind it.
     pub by_cells: [f64; 2],
+    /// By the reduced pressure of the cell downstream: of the oil that stiffens there.
+    pub by_pressure: f64,
 }
 
 /// The discrete balance of one gap on one grid.

@@ -389,10 +389,7 @@ impl FilmSolver {
         }
         film.operator
             .hold_feeds_to_edges(&self.grid, &film.set.cells);
-        let passage = film.passage.as_ref();
-        let operator = &mut film.operator;
-        film.expansion
-            .lean(&self.grid, &film.gap, passage, operator);
+        film.lean(&self.grid);
     }
 
     /// The settled film keeps its conditions: where next to nothing flows, round-off of ill-posed

@@ -5,6 +5,7 @@ use super::FilmState;
 use crate::bearing::{Bearing, Inlet};
 use crate::cavitation::CavitationModel;
 use crate::finish::Finish;
+use crate::grid::Grid;
 use crate::integrals::Units;
 use crate::nonlinear::EndOpening;
 use crate::reduced_pressure::ReducedPressure;
@@ -223,6 +224,23 @@ impl FilmState {
                 self.expansion.displacement[k][1] = compliance * slope;
             }
         }
+    }
+
+    /// Lets the gap of a soft shell lean upstream, as soft as the shell is under the film alone.
+    pub(crate) fn lean(&mut self, grid: &Grid) {
+        let unit = self.units.pressure;
+        let compliance = self.compliance * unit / self.units.clearance;
+        let softness = |k: usize| {
+            if self.set.cells[k] == Cell::Fed {
+                return [0.0; 2];
+            }
+            let slope = self.stiffened.get(k).map_or(1.0, |[_, slope]| *slope);
+            let reduced = self.expansion.pressure[k] * unit;
+            [compliance * slope, self.reduced.stiffening(reduced) * unit]
+        };
+        let (gap, passage) = (&self.gap, self.passage.as_ref());
+        self.expansion
+            .lean(grid, gap, passage, softness, &mut self.operator);
     }
 
     /// Where the rigid shapes overlap, only a pressure can keep the film open: such cells are full. Returns
