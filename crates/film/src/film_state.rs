@@ -331,7 +331,19 @@ impl FilmState {
         if self.lines.has_unknowns() && !closure.cuts_pressures() {
             self.refine_lines(closure);
         }
-        self.solution.iter().all(|x| x.is_finite())
+        self.solution.iter().all(|x| x.is_finite()) && !self.has_lost_its_way()
+    }
+
+    /// A compressed oil was linearised at pressures from which no step leads back: far beyond the limit of the
+    /// reduced pressure, where neither viscosity nor density means anything.
+    fn has_lost_its_way(&self) -> bool {
+        const FAR: f64 = 10.0;
+        let is_rigid = self.expansion.displacement.is_empty();
+        if self.expansion.density.is_empty() || !is_rigid || !self.exceeds_limit {
+            return false;
+        }
+        let farthest = FAR * self.reduced.limit() / self.units.pressure;
+        self.pressure.iter().any(|pressure| *pressure > farthest)
     }
 
     /// Forgets the linearisation of density and displacement that left no solution: it would leave none
