@@ -4,16 +4,16 @@
 
 mod common;
 
-use common::{CONDITIONS, diesel_big_end, diesel_cycle, greenwood_tripp};
+use common::{CONDITIONS, diesel_big_end, diesel_cycle, greenwood_tripp, plain_bearing};
 use sommerfeld_bearing::{
     Equilibrium, EquilibriumRequest, EquilibriumSettings, JournalOrbit, OrbitSettings,
     find_equilibrium, journal_orbit,
 };
 use sommerfeld_film::{
-    Bearing, Cavitation, ContactLaw, FilmSolver, Finish, JournalState, Outcome, RoughFinish,
-    Roughness,
+    Bearing, Carrier, Cavitation, ContactLaw, Feed, FeedLine, FeedShape, FilmShear, FilmSolver,
+    Finish, GreenwoodTripp, JournalState, Outcome, RoughFinish, Roughness,
 };
-use sommerfeld_oil::{Lubricant, PressureLaw};
+use sommerfeld_oil::{CompressionLaw, Lubricant, PressureLaw};
 use std::ops::ControlFlow;
 
 const CLOSURES: [Cavitation; 3] = [
@@ -166,5 +166,69 @@ fn over_a_load_cycle_the_limits_are_hydrodynamic() {
             }
             assert!(worst < BAR, "{cavitation:?}, {name}: {worst:e}");
         }
+    }
+}
+
+/// An oil that is compressed and thickens by Barus, in a bearing whose summits stand high above the mean planes: a
+/// step of the journal that asks the film for far more than the limit of the reduced pressure leaves nothing
+/// behind that the next ones could not undo.
+#[test]
+fn compressed_and_thickening_oil_comes_to_rest_at_every_speed() {
+    let mut bearing = Bearing {
+        cavitation: Cavitation::MassConserving,
+        film_shear: FilmShear::FilmFraction,
+        finish: Finish::Rough(RoughFinish {
+            roughness: Roughness {
+                journal: 0.20e-6,
+                shell: 0.34e-6,
+                peklenik_journal: 4.0,
+                peklenik_shell: 9.0,
+            },
+            contact: ContactLaw::GreenwoodTripp(GreenwoodTripp {
+                factor: 1e-3,
+                asperity_product: 0.05,
+                modulus: 53.3e9,
+                summit_height: 0.60e-6,
+                summit_roughness: Some(0.309e-6),
+            }),
+            boundary_friction: 0.02,
+        }),
+        ..plain_bearing(47.8e-3, 17.2e-3, 23.9e-6)
+    };
+    bearing.feeds.push(Feed {
+        shape: FeedShape::Rectangle {
+            length: 6e-3,
+            width: 12e-3,
+        },
+        carried_by: Carrier::Shell,
+        angle: std::f64::consts::PI,
+        position: 0.0,
+        pressure: 2e5,
+        line: FeedLine::Direct,
+    });
+    let oil = Lubricant {
+        viscosity_pressure: PressureLaw::Barus { alpha: 9.5e-9 },
+        density_pressure: CompressionLaw::DowsonHigginson,
+        ..Lubricant::constant(8.27e-3, 795.0)
+    };
+    let mut last = 0.0;
+    for speed in [500.0, 1000.0, 1400.0, 1500.0, 1600.0, 2000.0] {
+        let mut film = FilmSolver::aligned(&bearing, &oil, [96, 24]).unwrap();
+        let request = EquilibriumRequest {
+            load: [8e3, 0.0],
+            moment: None,
+            frame: JournalState {
+                journal_speed: speed * std::f64::consts::PI / 30.0,
+                ..JournalState::default()
+            },
+            start: None,
+            settings: EquilibriumSettings::default(),
+        };
+        let found = find_equilibrium(&mut film, &bearing, &request, &CONDITIONS).unwrap();
+        let thinnest = found.summary.minimum_film_thickness.value;
+        println!("{speed}: {} updates, {thinnest:e} m", found.film_updates);
+        assert_eq!(found.outcome, Outcome::Converged, "{speed}");
+        assert!(thinnest > last, "{speed}: {thinnest}");
+        last = thinnest;
     }
 }

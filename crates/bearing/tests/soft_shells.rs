@@ -1,8 +1,5 @@
 //! Bearings at rest on shells that give way by many times their film are found, under light loads and heavy
 //! ones, with fast journals and slow ones.
-//!
-//! Not everywhere: of 144 of 2, 8 and 20 kN at 3000, 1000, 300 and 100 1/min (`SOMMERFELD_ALL_ROWS=1`) 13 ended
-//! not converged or without a solution, all but one at 100 1/min.
 #![allow(clippy::unwrap_used, reason = "tests stop at the first surprise")]
 
 mod common;
@@ -16,11 +13,11 @@ use sommerfeld_oil::{Lubricant, PressureLaw};
 use std::f64::consts::PI;
 
 /// N, and 1/min.
-const ROUTINE: (&[f64], &[f64]) = (&[2e3, 20e3], &[3000.0, 1000.0]);
-const ALL: (&[f64], &[f64]) = (&[2e3, 8e3, 20e3], &[3000.0, 1000.0, 300.0, 100.0]);
+const LOADS: [f64; 3] = [2e3, 8e3, 20e3];
+const SPEEDS: [f64; 4] = [3000.0, 1000.0, 300.0, 100.0];
 
-/// Of all, those that were lost.
-const LOST: usize = 13;
+/// Film updates of the longest search: by raising the load.
+const MOST_UPDATES: usize = 600;
 
 fn bearing(thickness: f64, cavitation: Cavitation) -> Bearing {
     Bearing {
@@ -62,8 +59,6 @@ fn rest_on_a_soft_shell_is_found() {
         },
         ..plain.clone()
     };
-    let is_all = std::env::var_os("SOMMERFELD_ALL_ROWS").is_some();
-    let (loads, speeds) = if is_all { ALL } else { ROUTINE };
     let mut lost = Vec::new();
     for thickness in [2e-3, 10e-3] {
         for cavitation in [Cavitation::Reynolds, Cavitation::MassConserving] {
@@ -76,8 +71,8 @@ fn rest_on_a_soft_shell_is_found() {
                 if rough {
                     bearing.finish = rig_finish(greenwood_tripp(1e-3));
                 }
-                for &load in loads {
-                    for &speed in speeds {
+                for load in LOADS {
+                    for speed in SPEEDS {
                         let found = rest(&bearing, oil, load, speed);
                         println!(
                             "{thickness} {cavitation:?} {name} {load} {speed}: {:?} {} updates, {:.2} um",
@@ -85,6 +80,7 @@ fn rest_on_a_soft_shell_is_found() {
                             found.film_updates,
                             1e6 * found.summary.minimum_film_thickness.value
                         );
+                        assert!(found.film_updates <= MOST_UPDATES, "{}", found.film_updates);
                         if found.outcome != Outcome::Converged {
                             lost.push(format!(
                                 "{thickness} {cavitation:?} {name} {load} {speed} {:?}",
@@ -96,6 +92,5 @@ fn rest_on_a_soft_shell_is_found() {
             }
         }
     }
-    let bar = if is_all { LOST } else { 0 };
-    assert!(lost.len() <= bar, "{}:\n{}", lost.len(), lost.join("\n"));
+    assert!(lost.is_empty(), "{}:\n{}", lost.len(), lost.join("\n"));
 }

@@ -50,6 +50,12 @@ pub(crate) struct FilmState {
     pub(crate) held_per_height: Vec<f64>,
     /// Density and displacement changed by more than round-off in the last solution.
     pub(crate) is_bending: bool,
+    /// Cells that do not go all the way to their new pressure, and the reduced pressure (1/s) they go to.
+    pub(crate) turned_back: Vec<(usize, f64)>,
+    /// Nominal H of the last solution on a soft shell, else empty.
+    pub(crate) last_height: Vec<f64>,
+    /// The same of the rigid shapes alone.
+    pub(crate) rigid_height: Vec<f64>,
     /// What the gap lets through, where it is not smooth or its oil not the same everywhere.
     pub(crate) passage: Option<Passage>,
     /// Contact pressure per cell, 1/s, and its derivative by the H of the rigid shapes; empty without
@@ -166,6 +172,13 @@ impl FilmState {
             ),
             held_per_height: zero.clone(),
             is_bending: false,
+            turned_back: Vec::new(),
+            rigid_height: Vec::new(),
+            last_height: if bearing.elasticity.compliance() > 0.0 {
+                vec![1.0; n * m]
+            } else {
+                Vec::new()
+            },
             passage: None,
             contact: Vec::new(),
             yielding: Vec::new(),
@@ -293,6 +306,15 @@ impl FilmState {
     pub(crate) fn solve(&mut self, closure: &dyn CavitationModel) -> bool {
         let conserves = closure.conserves_mass();
         closure.admit_set(&self.operator, &mut self.set);
+        if !self.last_height.is_empty() {
+            let nominal = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height);
+            self.last_height.copy_from_slice(nominal);
+            let rigid = nominal.iter().zip(&self.expansion.displacement);
+            self.rigid_height.clear();
+            self.rigid_height
+                .extend(rigid.map(|(height, [displacement, _])| height - displacement));
+            self.fill_overlaps();
+        }
         self.lines.prepare(&self.operator, &self.fed_by);
         self.lines.fill(&self.fed_by, conserves, &mut self.set);
         self.assemble(closure);
@@ -309,7 +331,19 @@ impl FilmState {
         if self.lines.has_unknowns() && !closure.cuts_pressures() {
             self.refine_lines(closure);
         }
-        self.solution.iter().all(|x| x.is_finite())
+        self.solution.iter().all(|x| x.is_finite()) && !self.has_lost_its_way()
+    }
+
+    /// A compressed oil was linearised at pressures from which no step leads back: far beyond the limit of the
+    /// reduced pressure, where neither viscosity nor density means anything.
+    fn has_lost_its_way(&self) -> bool {
+        const FAR: f64 = 10.0;
+        let is_rigid = self.expansion.displacement.is_empty();
+        if self.expansion.density.is_empty() || !is_rigid || !self.exceeds_limit {
+            return false;
+        }
+        let farthest = FAR * self.reduced.limit() / self.units.pressure;
+        self.pressure.iter().any(|pressure| *pressure > farthest)
     }
 
     /// Forgets the linearisation of density and displacement that left no solution: it would leave none
@@ -322,6 +356,7 @@ impl FilmState {
         self.solution.fill(0.0);
         self.expansion.forget();
         self.stiffened.fill([0.0, 1.0]);
+        self.last_height.fill(1.0);
     }
 
     /// The same on the balances of feeds behind lines.
@@ -505,15 +540,29 @@ impl FilmState {
         } else {
             self.lines.update(&self.film_flows, tolerance, conserves)
         };
-        lines
-            + closure.update_set(
-                &self.operator,
-                &self.pressure,
-                &self.film_fraction,
-                &self.excess,
-                tolerance,
-                &mut self.set,
-            )
+        let is_soft = !self.expansion.displacement.is_empty();
+        if is_soft {
+            self.solved_cells.copy_from_slice(&self.set.cells);
+        }
+        let moved = closure.update_set(
+            &self.operator,
+            &self.pressure,
+            &self.film_fraction,
+            &self.excess,
+            tolerance,
+            &mut self.set,
+        );
+        let before = self.moved_cells();
+        if is_soft && self.fill_overlaps() {
+            return lines + moved - before + self.moved_cells();
+        }
+        lines + moved
+    }
+
+    /// Cells whose state is another than in the set that was solved.
+    fn moved_cells(&self) -> usize {
+        let cells = self.set.cells.iter().zip(&self.solved_cells);
+        cells.filter(|(now, before)| now != before).count()
     }
 
     pub(crate) fn write_fields(

@@ -65,6 +65,15 @@ impl Finish {
         }
     }
 
+    /// Composite roughness, m; zero where smooth.
+    #[must_use]
+    pub fn composite_roughness(&self) -> f64 {
+        match self {
+            Self::Smooth => 0.0,
+            Self::Rough(rough) => rough.roughness.composite(),
+        }
+    }
+
     /// Asperities can carry: gaps down to any overlap have an answer.
     #[must_use]
     pub fn has_contact(&self) -> bool {

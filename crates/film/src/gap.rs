@@ -31,6 +31,50 @@ pub struct Gap {
     pub rate: Vec<f64>,
     /// Faces at which the gap steps.
     pub steps: Vec<GapStep>,
+    /// The first and the last face along the axis of every station (`2 i + end`) where a soft shell makes
+    /// the gap differ between them and the cells; else empty.
+    pub ends: Vec<EndFace>,
+}
+
+/// The face at the end of a soft shell. Between the cell beside it and the end, H is linear in the pressure,
+/// so that the flow `-H^3 dp/dz` through the half cell is the mean of H^3 over the pressure times its
+/// difference: `(a^4 - b^4)/(4 (a - b))` with `a` in the cell and `b` at the end, where the film closes on the
+/// way `a^4/(4 (a - b))`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EndFace {
+    /// The H whose cube is that mean.
+    pub height: f64,
+    /// Its derivative by an H that grows on both sides alike.
+    pub rigid_slope: f64,
+    /// Twice its derivative by that of the cell: 1 where both are alike.
+    pub yielding_slope: f64,
+}
+
+impl EndFace {
+    /// Of H in the cell and at the end.
+    #[must_use]
+    pub fn between(cell: f64, end: f64) -> Self {
+        const LEAST: f64 = 1e-6;
+        let a = cell.max(LEAST);
+        let (mean, by_cell, by_end) = if end > 0.0 {
+            (
+                0.25 * (a * a + end * end) * (a + end),
+                0.25 * (3.0 * a * a + 2.0 * a * end + end * end),
+                0.25 * (a * a + 2.0 * a * end + 3.0 * end * end),
+            )
+        } else {
+            let drop = a - end;
+            let mean = 0.25 * a * a * a * a / drop;
+            (mean, (a * a * a - mean) / drop, mean / drop)
+        };
+        let height = mean.cbrt();
+        let per_height = 1.0 / (3.0 * height * height);
+        Self {
+            height,
+            rigid_slope: (by_cell + by_end) * per_height,
+            yielding_slope: 2.0 * by_cell * per_height,
+        }
+    }
 }
 
 /// A face around at which the gap steps: the half cells before and behind it, with heights `H1`,
@@ -84,7 +128,19 @@ impl Gap {
             mean: vec![0.0; n * m],
             rate: vec![0.0; n * m],
             steps: Vec::new(),
+            ends: Vec::new(),
         }
+    }
+
+    /// Derivatives of H at a face along the axis by that of the rigid shapes, and twice that by the
+    /// displacement of the cell beside it.
+    #[must_use]
+    pub fn end_slopes(&self, i: usize, j: usize, n_axial: usize) -> [f64; 2] {
+        if self.ends.is_empty() || (j > 0 && j < n_axial) {
+            return [1.0; 2];
+        }
+        let face = self.ends[2 * i + usize::from(j > 0)];
+        [face.rigid_slope, face.yielding_slope]
     }
 
     /// Relative derivatives by H, 1/H each, of what conducts and of what transports through a face
@@ -258,6 +314,25 @@ mod tests {
         assert!((step.cubed - 0.343).abs() < 1e-15);
         assert!((step.transport_slope - 1.0).abs() < 1e-14);
         assert!((step.cubed_slope - 3.0 * 0.49).abs() < 1e-14);
+    }
+
+    /// Gauss points of the mean, open all the way and closed on the way.
+    #[test]
+    fn an_end_conducts_the_mean_of_cubes() {
+        for (a, b) in [(0.7, 0.7), (0.9, 0.2), (0.3, -0.4)] {
+            let face = EndFace::between(a, b);
+            let open: f64 = if b < 0.0 { a / (a - b) } else { 1.0 };
+            let cube = |s: f64| (a + s * open * (b - a)).powi(3);
+            let offset = 0.5 / 3.0_f64.sqrt();
+            let mean = 0.5 * open * (cube(0.5 - offset) + cube(0.5 + offset));
+            assert!((face.height.powi(3) - mean).abs() < 1e-15, "{a} {b}");
+            let step = 1e-6;
+            let height = |da: f64, db: f64| EndFace::between(a + da, b + db).height;
+            let both = (height(step, step) - height(-step, -step)) / (2.0 * step);
+            assert!((both - face.rigid_slope).abs() < 1e-9, "{a} {b}");
+            let cell = (height(step, 0.0) - height(-step, 0.0)) / step;
+            assert!((cell - face.yielding_slope).abs() < 1e-9, "{a} {b}");
+        }
     }
 
     #[test]

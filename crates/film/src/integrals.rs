@@ -269,10 +269,11 @@ impl SolvedFilm<'_> {
     #[must_use]
     pub fn tangent<const L: usize>(&self, adjoints: &[Lanes<L>], storage: Storage<'_>) -> Tangent {
         let (mut by_position, mut by_rate) = (Sensitivity::<L>::new(), Sensitivity::<L>::new());
-        let mut yielded = vec![[0.0; L]; self.yielding.len()];
+        let gives_way = self.operator.leaning.len().max(self.yielding.len());
+        let mut yielded = vec![[0.0; L]; gives_way.min(self.pressure.len())];
         self.sensitivity_around(adjoints, &mut yielded, &mut by_position);
         self.sensitivity_axial(adjoints, &mut yielded, &mut by_position);
-        self.sensitivity_contact(&yielded, &mut by_position);
+        self.sensitivity_cells(&yielded, &mut by_position);
         match storage {
             Storage::Rate => {
                 self.sensitivity_storage(adjoints, [1.0, 0.0], &[], &mut by_rate);
@@ -325,11 +326,17 @@ impl SolvedFilm<'_> {
                     None => self.gap.relative_slopes(face, &mut steps),
                 };
                 let conducted = conducting * self.operator.conductance_around[face];
-                let by_height = conducted * (p_before - p_behind) + carrying * transport * upstream;
+                let leaning = self.operator.leaning.get(face);
+                let carried = leaning.map_or(carrying * transport, |leaning| leaning.by_face);
+                let by_height = conducted * (p_before - p_behind) + carried * upstream;
                 let value = |cell: Option<usize>| cell.map_or([0.0; L], |k| adjoints[k]);
                 let sides = [value(before), value(behind)];
                 sums.add(sides[0], sides[1], by_height, self.grid.axial[j]);
                 self.add_yielded([before, behind], sides, by_height, yielded);
+                if let Some(leaning) = leaning {
+                    let by_cells = leaning.by_cells.map(|by_cell| by_cell * upstream);
+                    self.add_leaning([before, behind], sides, by_cells, yielded);
+                }
             }
             by.add(&sums, self.angles.faces[i]);
         }
@@ -359,7 +366,8 @@ impl SolvedFilm<'_> {
                 } else {
                     conductance[j] * (pressure[j - 1] - pressure[j])
                 };
-                let by_height = slope(j) * flow;
+                let [rigid, _] = self.gap.end_slopes(i, j, m);
+                let by_height = slope(j) * rigid * flow;
                 let before = if j > 0 { adjoints[j - 1] } else { [0.0; L] };
                 let behind = if j < m { adjoints[j] } else { [0.0; L] };
                 sums.add(before, behind, by_height, faces[j]);
@@ -421,10 +429,10 @@ impl SolvedFilm<'_> {
         }
     }
 
-    /// Of the asperities that touch: their pressure follows the gap of their own cell, and so does what
-    /// they press back.
-    fn sensitivity_contact<const L: usize>(&self, yielded: &[Lanes<L>], by: &mut Sensitivity<L>) {
-        if self.contact.is_empty() {
+    /// Of what follows the gap of a cell: the pressure of asperities that touch, what they press back, and a
+    /// gap that leans upstream.
+    fn sensitivity_cells<const L: usize>(&self, yielded: &[Lanes<L>], by: &mut Sensitivity<L>) {
+        if self.contact.is_empty() && yielded.is_empty() {
             return;
         }
         let m = self.grid.n_axial();
@@ -432,7 +440,9 @@ impl SolvedFilm<'_> {
             let mut sums = StationSums::<L>::new();
             for j in 0..m {
                 let k = i * m + j;
-                if let Some(outputs) = self.contact_by_height::<L>(k) {
+                if !self.contact.is_empty()
+                    && let Some(outputs) = self.contact_by_height::<L>(k)
+                {
                     sums.add([0.0; L], outputs, 1.0, self.grid.axial[j]);
                 }
                 if let Some(pressed) = yielded.get(k) {
@@ -487,13 +497,30 @@ impl SolvedFilm<'_> {
         by_height: f64,
         yielded: &mut [Lanes<L>],
     ) {
-        if yielded.is_empty() {
+        if self.yielding.is_empty() {
             return;
         }
         for k in cells.into_iter().flatten() {
             let share = 0.5 * (self.yielding[k] - 1.0) * by_height;
             for output in 0..L {
                 yielded[k][output] += share * (before[output] - behind[output]);
+            }
+        }
+    }
+
+    /// What leans upstream follows the gaps of the cells on either side.
+    fn add_leaning<const L: usize>(
+        &self,
+        cells: [Option<usize>; 2],
+        [before, behind]: [Lanes<L>; 2],
+        by_cells: [f64; 2],
+        yielded: &mut [Lanes<L>],
+    ) {
+        for (cell, by_cell) in cells.into_iter().zip(by_cells) {
+            let Some(k) = cell else { continue };
+            let by_cell = by_cell * self.yielding.get(k).copied().unwrap_or(1.0);
+            for output in 0..L {
+                yielded[k][output] += by_cell * (before[output] - behind[output]);
             }
         }
     }

@@ -31,6 +31,7 @@ mod heat;
 mod height_integrals;
 pub mod integrals;
 pub mod journal_state;
+pub mod leaning;
 pub mod linear;
 pub mod mirror;
 pub mod narrowest;

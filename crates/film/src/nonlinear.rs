@@ -10,7 +10,7 @@
 //! the cell upstream, whose column stays one of a matrix that needs no pivoting.
 
 use crate::cavitation::FilmSet;
-use crate::gap::Gap;
+use crate::gap::{EndFace, Gap};
 use crate::linear::RingMatrix;
 use crate::passage::Passage;
 use crate::reynolds::{Cell, Operator};
@@ -58,12 +58,21 @@ impl Expansion {
     }
 
     /// Opens the gap by the displacement; around a ring, or between two ends.
+    ///
+    /// With `conducts_at_ends` the half cells at both ends conduct with the mean of H^3 over the pressure
+    /// ([`EndFace`]): where the rigid shapes overlap, the film closes towards an end, and the H in the middle
+    /// may be below zero.
     pub fn open(&self, gap: &mut Gap, n_axial: usize, ends: EndOpening, is_ring: bool) {
+        gap.ends.clear();
         if self.displacement.is_empty() {
             return;
         }
         let m = n_axial;
         let n = self.displacement.len() / m;
+        let conducts_at_ends = ends.conducts;
+        if conducts_at_ends {
+            gap.ends.resize(2 * n, EndFace::default());
+        }
         let of = |k: usize| self.displacement[k][0];
         for face in 0..(n + 1) * m {
             let (i, j) = (face / m, face % m);
@@ -81,6 +90,15 @@ impl Expansion {
                 let before = if j > 0 { of(i * m + j - 1) } else { ends.axial };
                 let behind = if j < m { of(i * m + j) } else { ends.axial };
                 gap.axial[i * (m + 1) + j] += 0.5 * (before + behind);
+            }
+            if conducts_at_ends {
+                for (end, j, cell) in [(0, 0, i * m), (1, m, i * m + m - 1)] {
+                    let height = &mut gap.axial[i * (m + 1) + j];
+                    let rigid = *height - 0.5 * (ends.axial + of(cell));
+                    let face = EndFace::between(rigid + of(cell), rigid + ends.axial);
+                    *height = face.height;
+                    gap.ends[2 * i + end] = face;
+                }
             }
         }
         for (mean, [opened, _]) in gap.mean.iter_mut().zip(&self.displacement) {
@@ -133,9 +151,21 @@ impl Expansion {
             } else {
                 held_behind
             };
+            let leaning = operator.leaning.get(face);
+            let carried = leaning.map_or(carrying * transport, |leaning| leaning.by_face);
             let by_height = conducting * operator.conductance_around[face] * (p_before - p_behind)
-                + carrying * transport * upstream;
-            self.add_displacement(equations, [before, behind], by_height);
+                + carried * upstream;
+            let by_cells = leaning.map_or([0.0; 2], |leaning| leaning.by_cells);
+            let by_heights = by_cells.map(|by_cell| 0.5 * by_height + by_cell * upstream);
+            self.add_displacement(equations, [before, behind], by_heights);
+            if let (Some(leaning), Some(down)) =
+                (leaning, if transport > 0.0 { behind } else { before })
+                && equations.film.set.cells[down] == Cell::Full
+            {
+                let slope = leaning.by_pressure * upstream;
+                let constant = -slope * self.pressure[down];
+                equations.add_flow([before, behind], constant, &[(down, slope)]);
+            }
         }
     }
 
@@ -152,7 +182,9 @@ impl Expansion {
             };
             let by_height = slope * operator.flow_axial(i, j, &self.pressure);
             // An end opens with the cell beside it.
-            self.add_displacement(equations, [before, behind], by_height);
+            let [_, yielding] = film.gap.end_slopes(i, j, m);
+            let by_heights = [0.5 * yielding * by_height; 2];
+            self.add_displacement(equations, [before, behind], by_heights);
         }
     }
 
@@ -172,19 +204,20 @@ impl Expansion {
         }
     }
 
-    /// The flow through a face rises by `by_height` per H, which half of what each side moves by opens.
+    /// The flow through a face rises by `by_heights` per H that either side opens by.
     fn add_displacement(
         &self,
         equations: &mut Equations<'_>,
         sides: [Option<usize>; 2],
-        by_height: f64,
+        by_heights: [f64; 2],
     ) {
         let mut slopes = [(0, 0.0); 2];
         let mut constant = 0.0;
-        for (slope, cell) in slopes.iter_mut().zip(sides) {
+        for ((slope, cell), by_height) in slopes.iter_mut().zip(sides).zip(by_heights) {
             let Some(cell) = cell else { continue };
-            if equations.film.set.cells[cell] == Cell::Full {
-                let value = 0.5 * by_height * self.displacement[cell][1];
+            // A pressure that was cut does not move the shell.
+            if equations.film.set.cells[cell] == Cell::Full && self.pressure[cell] >= 0.0 {
+                let value = by_height * self.displacement[cell][1];
                 constant -= value * self.pressure[cell];
                 *slope = (cell, value);
             }
@@ -202,7 +235,9 @@ impl Expansion {
             slope += film.operator.storage[k] * by_pressure;
             constant += film.operator.storage[k] * (density - 1.0 - by_pressure * self.pressure[k]);
         }
-        if let Some([_, by_pressure]) = self.displacement.get(k) {
+        if let Some([_, by_pressure]) = self.displacement.get(k)
+            && self.pressure[k] >= 0.0
+        {
             let held = film
                 .passage
                 .map_or(1.0, |passage| passage.holding_slopes[k][0]);
@@ -222,6 +257,8 @@ pub struct EndOpening {
     pub around: [f64; 2],
     /// At both ends along the axis.
     pub axial: f64,
+    /// The gap there is one of smooth surfaces, which oil leaves through.
+    pub conducts: bool,
 }
 
 /// The film that is linearised.

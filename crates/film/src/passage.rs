@@ -32,7 +32,9 @@ pub struct Passage {
     /// Derivatives by the nominal H, over the value: of what conducts, and of what is carried, through
     /// faces around.
     pub around_slopes: Vec<[f64; 2]>,
-    /// The same of what conducts through faces along the axis.
+    /// Derivative of the H that is carried through faces around by the nominal one.
+    pub carried_slopes: Vec<f64>,
+    /// Relative derivative by the nominal H of what conducts through faces along the axis.
     pub axial_slopes: Vec<f64>,
     /// Flow by sliding past rough surfaces through faces around, 1/s per width.
     drag: Vec<f64>,
@@ -111,6 +113,7 @@ impl Passage {
             height_around: around.clone(),
             height: cells.clone(),
             around_slopes: vec![[0.0; 2]; (n + 1) * m],
+            carried_slopes: vec![1.0; (n + 1) * m],
             axial_slopes: vec![0.0; n * (m + 1)],
             drag: around.clone(),
             holding_slopes: vec![[0.0; 2]; n * m],
@@ -255,6 +258,7 @@ impl Passage {
                 carrying = 0.0;
             }
             self.around_slopes[face] = [conducting, carrying];
+            self.carried_slopes[face] = carried_slope;
         }
     }
 

@@ -85,6 +85,16 @@ impl ReducedPressure {
         }
     }
 
+    /// Relative derivative of that derivative, 1/Pa: how fast the oil stiffens. Zero without pressure, and at
+    /// the limit and beyond.
+    #[must_use]
+    pub fn stiffening(&self, reduced: f64) -> f64 {
+        match self {
+            Self::Table(table) if reduced > 0.0 => table.stiffening(reduced),
+            _ => 0.0,
+        }
+    }
+
     /// The last pressure (Pa) of the table with its slope: what a film beyond the limit is given until it
     /// has settled.
     #[must_use]
@@ -209,6 +219,25 @@ impl Table {
         }
         let (value, slope) = self.cubic(index, place - index as f64);
         Some((value, slope / (left * self.limit)))
+    }
+
+    /// With `s = -ln(1 - q/q_limit)`: `p'' / p' = ds/dq (1 + p_ss/p_s)`.
+    fn stiffening(&self, reduced: f64) -> f64 {
+        let left = 1.0 - reduced / self.limit;
+        let step = REACH / INTERVALS as f64;
+        let place = -left.ln() / step;
+        let index = place as usize;
+        if left <= 0.0 || index >= INTERVALS {
+            return 0.0;
+        }
+        let ([from, out], [to, into]) = (self.nodes[index], self.nodes[index + 1]);
+        let (t, rise) = (place - index as f64, to - from);
+        let (out, into) = (step * out, step * into);
+        let curve = 3.0 * rise - 2.0 * out - into;
+        let twist = out + into - 2.0 * rise;
+        let slope = out + t * (2.0 * curve + 3.0 * t * twist);
+        let bend = 2.0 * curve + 6.0 * t * twist;
+        (1.0 + bend / (step * slope)) / (left * self.limit)
     }
 
     fn highest(&self) -> (f64, f64) {

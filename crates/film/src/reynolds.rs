@@ -68,6 +68,17 @@ pub enum Cell {
     Fed,
 }
 
+/// Derivatives of what is dragged through a face around, 1/s per H.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Leaning {
+    /// By the H of the face.
+    pub by_face: f64,
+    /// By the H of the cells before and behind it.
+    pub by_cells: [f64; 2],
+    /// By the reduced pressure of the cell downstream: of the oil that stiffens there.
+    pub by_pressure: f64,
+}
+
 /// The discrete balance of one gap on one grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operator {
@@ -87,6 +98,9 @@ pub struct Operator {
     pub conductance_axial: Vec<f64>,
     /// Flow of a full film dragged through faces around, 1/s.
     pub transport: Vec<f64>,
+    /// How the transport follows the gap where a soft shell makes it lean upstream
+    /// ([`crate::leaning`]), per face around; else empty.
+    pub leaning: Vec<Leaning>,
     /// Flow into store per unit of film fraction, 1/s, per cell.
     pub storage: Vec<f64>,
     /// The same where the film is ruptured. Without a past to start from, a film fraction that stays
@@ -117,6 +131,7 @@ impl Operator {
             conductance_around: vec![0.0; (n + 1) * m],
             conductance_axial: vec![0.0; n * (m + 1)],
             transport: vec![0.0; (n + 1) * m],
+            leaning: Vec::new(),
             storage: vec![0.0; n * m],
             ruptured_storage: vec![0.0; n * m],
             stored: vec![0.0; n * m],
@@ -129,6 +144,7 @@ impl Operator {
     /// Sets up the balance for `gap`, the mean surface speed (rad/s) and the storage.
     pub fn update(&mut self, grid: &Grid, gap: &Gap, mean_speed: f64, storage: Storage<'_>) {
         self.mean_speed = mean_speed;
+        self.leaning.clear();
         let (n, m) = (self.n_around, self.n_axial);
         for i in 0..=n {
             let distance = around_distance(grid, &self.around, i);

@@ -389,6 +389,7 @@ impl FilmSolver {
         }
         film.operator
             .hold_feeds_to_edges(&self.grid, &film.set.cells);
+        film.lean(&self.grid);
     }
 
     /// The settled film keeps its conditions: where next to nothing flows, round-off of ill-posed
@@ -486,16 +487,14 @@ impl FilmForce for FilmSolver {
 
     fn minimum_gap(&self, state: &JournalState) -> f64 {
         let nominal = self.search.narrowest(&self.bearing, state).gap;
+        // What a soft shell gives way under a pressure that bearings have.
+        let give = 2e7 * self.bearing.elasticity.compliance();
         match &self.bearing.finish {
-            Finish::Rough(rough) if rough.contact.is_on() => {
-                let give = 2e7 * self.bearing.elasticity.compliance();
-                softened(nominal, rough.roughness.composite().max(give))
+            Finish::Rough(rough) if rough.contact.is_on() && give == 0.0 => {
+                softened(nominal, rough.roughness.composite())
             }
-            _ => match self.bearing.elasticity.compliance() {
-                // What a soft shell gives way under a pressure that bearings have.
-                compliance if compliance > 0.0 => softened(nominal, 2e7 * compliance),
-                _ => nominal,
-            },
+            finish if give > 0.0 => yielded(nominal, give.max(finish.composite_roughness())),
+            _ => nominal,
         }
     }
 
@@ -631,6 +630,17 @@ fn softened(nominal: f64, sigma: f64) -> f64 {
         nominal
     } else {
         sigma * over.exp().ln_1p()
+    }
+}
+
+/// The same where the shell gives way, by as much as the shapes overlap: the film between them thins with the
+/// load as a power of it, not by powers of e.
+fn yielded(nominal: f64, give: f64) -> f64 {
+    let root = nominal.hypot(2.0 * give);
+    if nominal > 0.0 {
+        0.5 * (nominal + root)
+    } else {
+        2.0 * give * give / (root - nominal)
     }
 }
 

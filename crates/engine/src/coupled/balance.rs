@@ -54,12 +54,12 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    /// Largest last step over the smallest gap. Taken without another update, it leaves an error of
-    /// the order of its square: films resist with about h^-3, so that twice the square bounds it, and a
-    /// film may have moved by two such steps since its update.
+    /// Largest last step over the smallest gap, as for single bearings
+    /// (`sommerfeld_bearing`): taken without another update, it leaves an error of the order of its square, or,
+    /// where the cavitated set would change on the way, of a share of it.
     fn last_step(&self) -> f64 {
         if self.takes_last_step {
-            (self.step / 8.0).sqrt()
+            3.0 * self.step
         } else {
             self.step
         }

@@ -51,6 +51,43 @@ fn missing(engine: &ElasticSix, found: &CoupledOrbits) -> [f64; 2] {
     [worst[0] / largest[0], worst[1] / largest[1]]
 }
 
+/// Ending the Newton iteration at the tolerance of the settings leaves the journals of every main within that share
+/// of their gap of where a thousand times finer tolerance puts them, where cavitated sets change on the way too.
+#[test]
+fn journals_are_where_the_tolerance_says() {
+    let run = |tolerance: f64| {
+        let mut engine = ElasticSix::new(0.024, Cavitation::Reynolds, Vec::new());
+        engine.grid = [48, 8];
+        let settings = OrbitSettings {
+            crank_step: 10.0_f64.to_radians(),
+            newton_tolerance: tolerance,
+            cycle_limit: 1,
+            closure_tolerance: 1e-12,
+            ..OrbitSettings::default()
+        };
+        engine.run(&settings, &threads as &FilmExecutor<'_>).orbits
+    };
+    let tolerance = OrbitSettings::default().newton_tolerance;
+    let (found, finer) = (run(tolerance), run(1e-3 * tolerance));
+    let mut worst = 0.0_f64;
+    for (a, b) in found.iter().zip(&finer) {
+        for (a, b) in a.points.iter().zip(&b.points) {
+            let ([ax, ay], [bx, by]) = (a.state.position, b.state.position);
+            let gap = b.summary.minimum_film_thickness.value;
+            worst = worst.max((ax - bx).hypot(ay - by) / gap);
+        }
+    }
+    let solves = |orbits: &[sommerfeld_bearing::JournalOrbit]| -> usize {
+        orbits.iter().map(|orbit| orbit.film_solves).sum()
+    };
+    println!(
+        "{worst:e}, {} film updates against {}",
+        solves(&found),
+        solves(&finer)
+    );
+    assert!(worst < tolerance, "{worst:e}");
+}
+
 /// The mains together carry what the free body of the engine asks of them, at every crank angle, though
 /// six throws and twelve arms of unbalance stand between the forces and the mains.
 #[test]

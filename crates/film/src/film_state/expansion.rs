@@ -5,10 +5,15 @@ use super::FilmState;
 use crate::bearing::{Bearing, Inlet};
 use crate::cavitation::CavitationModel;
 use crate::finish::Finish;
+use crate::grid::Grid;
 use crate::integrals::Units;
 use crate::nonlinear::EndOpening;
 use crate::reduced_pressure::ReducedPressure;
 use crate::reynolds::Cell;
+
+/// H that a soft shell keeps open where the rigid shapes overlap, and the share of one that was thinner.
+const LEAST_HEIGHT: f64 = 2e-3;
+const STAYING: f64 = 0.4;
 
 impl FilmState {
     /// What the new solution makes of pressure, density and displacement, the place about which the next
@@ -23,13 +28,13 @@ impl FilmState {
         let unit = self.units.pressure;
         let is_soft = !self.expansion.displacement.is_empty();
         self.stiffened.resize(self.pressure.len(), [0.0, 1.0]);
-        let mut held_back = Vec::new();
+        self.turned_back.clear();
         for k in 0..self.pressure.len() {
             let full = self.reduced.pressure(self.pressure[k] * unit);
             let held = is_soft.then(|| self.held_back(k, full)).flatten();
             let (pressure, slope) = match (held, full) {
                 (Some((at, pressure, slope)), _) => {
-                    held_back.push((k, at));
+                    self.turned_back.push((k, at));
                     (pressure, slope)
                 }
                 (None, Some(full)) => full,
@@ -45,9 +50,9 @@ impl FilmState {
             let pressure = closure.equation_pressure(&self.solution, &self.pressure);
             self.expansion.pressure.copy_from_slice(pressure);
         }
-        self.is_bending |= !held_back.is_empty();
-        for (k, at) in held_back {
-            self.expansion.pressure[k] = at;
+        self.is_bending |= !self.turned_back.is_empty();
+        for (k, at) in &self.turned_back {
+            self.expansion.pressure[*k] = *at;
         }
     }
 
@@ -75,7 +80,11 @@ impl FilmState {
     fn move_expansion(&mut self) {
         const ROUND_OFF: f64 = 1e-9;
         let unit = self.units.pressure;
+        let is_soft = !self.expansion.displacement.is_empty();
         for k in 0..self.pressure.len() {
+            if is_soft {
+                self.move_shell(k);
+            }
             let [pressure, slope] = self.stiffened[k];
             let change = self.pressure[k] - self.expansion.pressure[k].max(0.0);
             let mut content = self.film_fraction[k];
@@ -92,33 +101,53 @@ impl FilmState {
                 *density = next;
                 content *= next[0];
             }
-            if let Some(displacement) = self.expansion.displacement.get_mut(k) {
-                let compliance = self.compliance * unit / self.units.clearance;
-                let height = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height)[k];
-                let fed = self.set.cells[k] == Cell::Fed;
-                let (next, yielding) = if fed {
-                    (0.0, 1.0)
-                } else {
-                    let asperities = Asperities {
-                        finish: &self.finish,
-                        units: &self.units,
-                        compliance,
-                    };
-                    asperities.displaced(height - displacement[0], compliance * pressure.max(0.0))
-                };
-                // A step that opens the gap by more than it is has left what its slopes are good for.
-                let most = 0.5 * height.abs().max(displacement[0].abs()).max(1e-3);
-                let moved = (next - displacement[0]).clamp(-most, most);
-                self.is_bending |= moved.abs() > ROUND_OFF * height.abs().max(1e-3);
-                // A pressure that was cut does not move the shell.
-                let slope = if fed || pressure <= 0.0 {
-                    0.0
-                } else {
-                    compliance * slope * yielding
-                };
-                *displacement = [displacement[0] + moved, slope];
-            }
             self.expansion.content[k] = content;
+        }
+    }
+
+    /// Displacement of one cell at its new pressure. A step that opens the gap by more than it is, or closes
+    /// more than a share of it, has left what its slopes are good for: the shell goes part of the way, and the
+    /// pressure with it.
+    fn move_shell(&mut self, k: usize) {
+        const ROUND_OFF: f64 = 1e-9;
+        const CLOSING: f64 = 0.6;
+        let unit = self.units.pressure;
+        let [pressure, slope] = self.stiffened[k];
+        let compliance = self.compliance * unit / self.units.clearance;
+        let height = self.passage.as_ref().map_or(&self.gap.mean, |p| &p.height)[k];
+        let [before, _] = self.expansion.displacement[k];
+        if self.set.cells[k] == Cell::Fed {
+            self.is_bending |= before.abs() > ROUND_OFF * height.abs().max(1e-3);
+            self.expansion.displacement[k] = [0.0; 2];
+            return;
+        }
+        let asperities = Asperities {
+            finish: &self.finish,
+            units: &self.units,
+            compliance,
+        };
+        let rigid = height - before;
+        let (next, yielding) = asperities.displaced(rigid, compliance * pressure.max(0.0));
+        let opening = 0.5 * height.abs().max(before.abs()).max(1e-3);
+        let rough = self.finish.composite_roughness() / self.units.clearance;
+        let closing = CLOSING * height.max(0.0) + rough;
+        let moved = next - before;
+        self.is_bending |= moved.abs() > ROUND_OFF * height.abs().max(1e-3);
+        let after = before + moved.clamp(-closing, opening);
+        self.expansion.displacement[k] = [after, compliance * slope * yielding];
+        if let Some(contact) = self.contact.get_mut(k) {
+            // What the journal feels is what presses at this solution, not at the last.
+            contact[0] = asperities.pressing(rigid + after);
+        }
+        if after == next || self.set.cells[k] != Cell::Full {
+            return;
+        }
+        let (by_film, yielding) = asperities.share_of_film(rigid, after);
+        let reduced = self.reduced.reduced((by_film / compliance).max(0.0) * unit);
+        if let Some((pressure, slope)) = self.reduced.pressure(reduced) {
+            self.stiffened[k] = [pressure / unit, slope];
+            self.turned_back.push((k, reduced / unit));
+            self.expansion.displacement[k] = [after, compliance * slope * yielding];
         }
     }
 
@@ -144,12 +173,7 @@ impl FilmState {
             let by_film = compliance * pressure.max(0.0);
             let (displacement, yielding) = asperities.displaced(self.gap.mean[k], by_film);
             let slope = self.stiffened.get(k).map_or(1.0, |[_, slope]| *slope);
-            let moves = if pressure > 0.0 {
-                compliance * slope * yielding
-            } else {
-                0.0
-            };
-            self.expansion.displacement[k] = [displacement, moves];
+            self.expansion.displacement[k] = [displacement, compliance * slope * yielding];
             self.yielding[k] = yielding;
         }
     }
@@ -166,20 +190,73 @@ impl FilmState {
                 Inlet::MaxFilmLine { pressure } => [of(pressure); 2],
             },
             axial: of(bearing.ambient_pressure),
+            // Rough surfaces leave a mean gap wherever they are.
+            conducts: matches!(self.finish, Finish::Smooth),
         }
     }
 
-    /// Keeps the gap of a soft shell open where the rigid shapes overlap: it has given way at least as far.
+    /// Keeps the gap of a soft shell open where the rigid shapes overlap: it has given way at least as far, under
+    /// a pressure that does it.
     pub(crate) fn give_way(&mut self) {
         if self.passage.is_some() && self.finish.has_contact() {
             // Asperities hold it open, and rough surfaces leave a mean gap wherever they are.
             return;
         }
-        const LEAST: f64 = 2e-3;
-        let heights = self.gap.mean.iter();
-        for (displacement, height) in self.expansion.displacement.iter_mut().zip(heights) {
-            displacement[0] = displacement[0].max(LEAST - height);
+        let unit = self.units.pressure;
+        let compliance = self.compliance * unit / self.units.clearance;
+        for k in 0..self.expansion.displacement.len() {
+            let [before, _] = self.expansion.displacement[k];
+            // A film that was thinner stays so.
+            let least = LEAST_HEIGHT.min(STAYING * self.last_height[k]);
+            let needed = least - self.gap.mean[k];
+            if before >= needed {
+                continue;
+            }
+            self.expansion.displacement[k][0] = needed;
+            if self.set.cells[k] != Cell::Full {
+                continue;
+            }
+            let reduced = self.reduced.reduced(needed.max(0.0) / compliance * unit);
+            if let Some((pressure, slope)) = self.reduced.pressure(reduced) {
+                self.stiffened.resize(self.pressure.len(), [0.0, 1.0]);
+                self.stiffened[k] = [pressure / unit, slope];
+                self.expansion.pressure[k] = reduced / unit;
+                self.expansion.displacement[k][1] = compliance * slope;
+            }
         }
+    }
+
+    /// Lets the gap of a soft shell lean upstream, as soft as the shell is under the film alone.
+    pub(crate) fn lean(&mut self, grid: &Grid) {
+        let unit = self.units.pressure;
+        let compliance = self.compliance * unit / self.units.clearance;
+        let softness = |k: usize| {
+            if self.set.cells[k] == Cell::Fed {
+                return [0.0; 2];
+            }
+            let slope = self.stiffened.get(k).map_or(1.0, |[_, slope]| *slope);
+            let reduced = self.expansion.pressure[k] * unit;
+            [compliance * slope, self.reduced.stiffening(reduced) * unit]
+        };
+        let (gap, passage) = (&self.gap, self.passage.as_ref());
+        self.expansion
+            .lean(grid, gap, passage, softness, &mut self.operator);
+    }
+
+    /// Where the rigid shapes overlap, only a pressure can keep the film open: such cells are full. Returns
+    /// whether any was not.
+    pub(crate) fn fill_overlaps(&mut self) -> bool {
+        let mut filled = false;
+        if self.finish != Finish::Smooth {
+            return filled;
+        }
+        for (cell, rigid) in self.set.cells.iter_mut().zip(&self.rigid_height) {
+            if *cell == Cell::Ruptured && *rigid <= 0.0 {
+                *cell = Cell::Full;
+                filled = true;
+            }
+        }
+        filled
     }
 }
 
@@ -192,6 +269,26 @@ struct Asperities<'a> {
 }
 
 impl Asperities<'_> {
+    /// Inverse of [`Asperities::displaced`]: what of a displacement the film makes, with the same slope.
+    fn share_of_film(&self, rigid: f64, displacement: f64) -> (f64, f64) {
+        if !self.finish.has_contact() {
+            return (displacement, 1.0);
+        }
+        let (clearance, unit) = (self.units.clearance, self.units.pressure);
+        let contact = self
+            .finish
+            .contact_pressure((rigid + displacement) * clearance);
+        let by_film = displacement - self.compliance * contact.value / unit;
+        let slope = self.compliance * contact.by_gap * clearance / unit;
+        (by_film, 1.0 / (1.0 - slope))
+    }
+
+    /// Contact pressure over the unit at a relative gap.
+    fn pressing(&self, height: f64) -> f64 {
+        let pressure = self.finish.contact_pressure(height * self.units.clearance);
+        pressure.value / self.units.pressure
+    }
+
     /// Displacement u over the clearance where the film alone makes `by_film`, `u = by_film + k p_c(H + u)`,
     /// and by how much the gap then falls as that of the rigid shapes, `rigid`, does. The right side falls
     /// with u and bends upwards, so that Newton's steps from below do not overshoot.

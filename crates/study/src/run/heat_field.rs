@@ -73,8 +73,11 @@ impl FieldHeat {
             header.messages.insert(
                 0,
                 format!(
-                    "not converged: the temperatures of the film still move by {last:.2} K; give more \
-                     supply or more maximum_cycles"
+                    "not converged: the temperatures of the film still move by {last:.2} K, with {:.3} W \
+                     made and {:.3} W carried away; give walls that take heat (heat.wall_coefficient), more \
+                     supply or, for a load cycle, more maximum_cycles",
+                    warmed.balance.generated,
+                    warmed.balance.carried_out + warmed.balance.conducted,
                 ),
             );
         }
