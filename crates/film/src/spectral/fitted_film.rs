@@ -5,15 +5,15 @@
 //! p = 0 all around it;   H^3 p_theta = 0 at a and b    which places the fronts
 //! ```
 //! The film is mapped onto a rectangle between its fronts, where pressure is smooth: elements of high
-//! degree around, even polynomials across. The fronts move by Newton's method: the pressure that is
-//! zero on a front which is off by d is right to order d^2, and the front belongs where the flux across
-//! it has been used up by the sink behind it,
+//! degree around, even polynomials across. The pressure that is zero on a front which is off by d is right to
+//! order d^2, and the front belongs where the flux across it has been used up by the sink behind it,
 //!
 //! ```text
 //! |w| (sin(theta' - omega) - sin(theta - omega)) = (1 + (D/B)^2 front'^2) H^3 p_theta
 //! ```
-//! with omega the angle of the motion. The force follows to order d^2 too, so that a few updates
-//! suffice, and its derivatives need no third solution: `u dA/de p` with the two u of unit motions.
+//! with omega the angle of the motion, in the mean weighted with each term of the front. From afar each line moves
+//! its fronts by itself, then Newton's method all together, with the derivatives of the discrete equations
+//! (`moving`), which also give those of the force with fronts that follow the journal.
 //! Limits: the film is torn apart on every line across the width; it is, up to widths of some
 //! diameters. Pressures over 12 eta R^2/c^2, motion over c.
 //! References: H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber, Das Schwimmlager, VDI 1933; trial free
@@ -25,8 +25,8 @@ use super::around::SommerfeldAngle;
 use super::profile::ProfileMatrix;
 use super::quadrature::{Element, gauss_legendre};
 use fronts::{BEFORE, FrontFit, Fronts};
-use moving::Rates;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use moving::{Pull, Rates};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 mod figures;
 mod fronts;
@@ -42,11 +42,13 @@ const LEAST_RUPTURE: f64 = 0.05;
 /// Share of the slope of a front that counts at most in its move.
 const SLOPE_CAP: f64 = 0.5;
 /// Newton's method takes over where the fronts move less, rad (mean square).
-const CLOSE: f64 = 0.1;
+const CLOSE: f64 = 0.03;
 /// It has new rates where its changes fall less than to this share.
 const SLOW: f64 = 0.3;
 /// Its changes are at most this, rad; a greater one means that it is lost.
 const FARTHEST: f64 = 0.3;
+/// Changes of the force over its size that lines which move by themselves may still make.
+const UNFELT: f64 = 3e-6;
 /// More updates than this mean that the fronts do not settle.
 const MOST_UPDATES: usize = 14;
 
@@ -73,6 +75,8 @@ pub(super) struct FittedFilm<const M: usize, const G: usize, const L: usize> {
     motion: [f64; 2],
     /// Fronts of the last solution, from the direction of motion.
     fronts: Fronts<G>,
+    /// Where each line would have them.
+    pulls: [[Pull; G]; 2],
     /// Their parts, rad, first of eccentricity and direction nothing.
     parts: [f64; L],
     /// How the equations change, the inverse of the fronts' part, how the fronts follow eccentricity and direction.
@@ -148,6 +152,7 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
                 angles: [[0.0; G]; 2],
                 slopes: [[0.0; G]; 2],
             },
+            pulls: [[Pull::default(); G]; 2],
             parts: [0.0; L],
             rates: [[0.0; L]; L],
             inverse: [[0.0; L]; L],
@@ -169,13 +174,20 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
             self.begin(eps, driven);
             settled = self.settle();
         }
-        settled &= self.differentiate();
-        self.is_warm = settled;
-        let change = self.newton_change();
-        let mut found = self.tangents(&change);
-        for (part, change) in self.parts.iter_mut().zip(change) {
-            *part += change;
-        }
+        self.is_warm = settled && self.differentiate();
+        let mut found = if self.is_warm {
+            let change = self.newton_change();
+            for (part, change) in self.parts.iter_mut().zip(&change) {
+                *part += change;
+            }
+            self.tangents(&change)
+        } else {
+            // Where the elements are too coarse for the fronts of a gap so wide that the force does not feel them.
+            settled = self.settle_by_lines();
+            self.differentiate();
+            self.follow = [[0.0; 2]; L];
+            self.tangents(&[0.0; L])
+        };
         if is_at_rest {
             found.force = [0.0; 2];
             found.by_eccentricity = [0.0; 2];
@@ -240,7 +252,7 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
                 change = self.newton_change();
                 size = self.fit.size(&change);
             }
-            if size > FARTHEST || size.is_nan() {
+            if size > FARTHEST || size > last || size.is_nan() {
                 return false;
             }
             for (part, change) in self.parts.iter_mut().zip(change) {
@@ -251,19 +263,39 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
         false
     }
 
+    /// Lets each line move its fronts by itself until the force no longer feels it.
+    fn settle_by_lines(&mut self) -> bool {
+        self.begin(self.eps, self.motion);
+        let terms = (L - BEFORE) / 2;
+        let (mut before, mut last_change) = ([0.0; 2], f64::INFINITY);
+        for update in 0..MOST_UPDATES {
+            self.fronts = self.fit.fronts(&self.parts);
+            if !self.solve() {
+                return false;
+            }
+            let force = self.force_of_answers();
+            let size = force[0].hypot(force[1]);
+            let change = (force[0] - before[0]).hypot(force[1] - before[1]) / size;
+            // The force follows the fronts to second order, and so do its changes one another.
+            let left = (change * change / last_change).max(0.1 * change);
+            if update > 1 && left < UNFELT {
+                return true;
+            }
+            let terms = if update > 3 { terms } else { terms.min(3) };
+            self.parts = self.fit.fit(&self.wishes(), terms);
+            (before, last_change) = (force, change);
+        }
+        last_change < 10.0 * UNFELT
+    }
+
     /// Where each line would have its fronts: where the flux across them is used up, rad.
     fn wishes(&self) -> [[f64; G]; 2] {
-        let speed = self.motion[0].hypot(self.motion[1]);
         let mut wishes = [[0.0; G]; 2];
         for g in 0..G {
             for side in 0..2 {
-                let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
-                let steep = 1.0 + (self.aspect * slope * slope).min(SLOPE_CAP);
-                let flux = dot(self.fluxes(side, g), self.motion);
-                let used = at.sin() + steep * flux / speed;
-                let beyond = PI - used.clamp(-1.0, 1.0).asin();
-                let wish = if side == 1 { beyond } else { beyond - TAU };
-                wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);
+                let way = self.pulls[side][g].way;
+                wishes[side][g] =
+                    self.fronts.angles[side][g] + way.clamp(-LONGEST_MOVE, LONGEST_MOVE);
             }
             let over = wishes[1][g] - wishes[0][g] - (TAU - LEAST_RUPTURE);
             if over > 0.0 {

@@ -1,9 +1,10 @@
 //! How do force and fronts follow the journal?
 //!
 //! ```text
-//! R(c, x) = 0,  R_t = sum over lines of  weight T_t(Z) H^3 p_theta/|w|  at either front
+//! R(c, x) = 0,  R_t = sum over lines of  weight T_t(Z) d   at either front
 //! dF/dx = F_x - F_c R_c^-1 R_x,   x = (eccentricity, direction of motion),  c the parts of the fronts
 //! ```
+//! with d the way that the front would go by itself on its line (`pull`), so that R_c is close to minus one.
 //! In the continuous film F_c vanishes, as the slope of the pressure does at the fronts; with some terms
 //! of a front it is small and not zero. All four blocks are derivatives of the discrete equations, by
 //! adjoints: two of the force, which are the answers themselves, and one for each part of the fronts.
@@ -11,8 +12,9 @@
 
 use super::fronts::BEFORE;
 use super::strip::{End, Point};
-use super::{FittedFilm, dot};
+use super::{FittedFilm, SLOPE_CAP, dot};
 use crate::spectral::answer::AlignedForce;
+use std::f64::consts::FRAC_PI_2;
 
 /// Rows: both forces, then the conditions at the fronts. Columns: eccentricity, direction, parts of
 /// the fronts.
@@ -37,6 +39,22 @@ struct PointRates {
     grown: [f64; 3],
 }
 
+/// Squares of the angle beyond a quarter of a turn that count as none, rad2.
+const LEAST_CHORD: f64 = 1e-3;
+/// Largest square of the chord to that angle.
+const MOST_CHORD: f64 = 3.9;
+
+/// Where a front would go on its line, rad, and how that changes with flux, angle and slope; H^3 p_theta there for
+/// unit motions.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Pull {
+    pub way: f64,
+    fluxes: [f64; 2],
+    by_flux: f64,
+    by_angle: f64,
+    by_slope: f64,
+}
+
 /// Motion across the present one.
 fn across([along, across]: [f64; 2]) -> [f64; 2] {
     [-across, along]
@@ -55,6 +73,7 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
         self.walk_fields(&mut lines);
         self.add_conditions(&mut lines);
         let mut rates = self.gathered(&lines);
+        self.add_pulls(&mut rates);
         let (resistance, conditions) = (self.resistance(), self.conditions());
         let turned = across(self.motion);
         for row in 0..L {
@@ -62,7 +81,7 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
                 rates[row] = rates[row].map(|rate| -rate);
                 rates[row][1] += dot(resistance[row], turned);
             } else {
-                rates[row][1] += dot(conditions[row], turned);
+                rates[row][1] += conditions[row][1];
             }
         }
         self.rates = rates;
@@ -109,30 +128,32 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
 
     /// Newton's change of the fronts, with the inverse last found.
     pub(super) fn newton_change(&self) -> [f64; L] {
-        let conditions = self.conditions().map(|of| dot(of, self.motion));
+        let conditions = self.conditions();
         let mut change = [0.0; L];
         for part in BEFORE..L {
             for row in BEFORE..L {
-                change[part] -= self.inverse[part][row] * conditions[row];
+                change[part] -= self.inverse[part][row] * conditions[row][0];
             }
         }
         change
     }
 
-    /// What the conditions at the fronts are for unit motions, over the speed.
+    /// What is left of the conditions at the fronts, and how it changes with the direction of motion where the
+    /// film stays.
     fn conditions(&self) -> [[f64; 2]; L] {
         let terms = (L - BEFORE) / 2;
-        let per_speed = 1.0 / self.motion[0].hypot(self.motion[1]);
+        let turned = across(self.motion);
         let mut conditions = [[0.0; 2]; L];
         for side in 0..2 {
             for g in 0..G {
-                let weight = per_speed * self.fit.weights()[g];
-                let flux = self.fluxes(side, g).map(|flux| weight * flux);
+                let weight = self.fit.weights()[g];
+                let pull = &self.pulls[side][g];
+                let parts = [pull.way, pull.by_flux * dot(pull.fluxes, turned)];
                 for term in 0..terms {
-                    let share = self.fit.term(term)[0][g];
+                    let share = weight * self.fit.term(term)[0][g];
                     let row = &mut conditions[BEFORE + side * terms + term];
-                    row[0] += share * flux[0];
-                    row[1] += share * flux[1];
+                    row[0] += share * parts[0];
+                    row[1] += share * parts[1];
                 }
             }
         }
@@ -143,14 +164,14 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
     fn solve_adjoints(&mut self) {
         let terms = (L - BEFORE) / 2;
         let degree = self.accuracy.degree;
-        let per_speed = self.accuracy.elements as f64 / self.motion[0].hypot(self.motion[1]);
         self.fields.fill([0.0; L]);
         for side in 0..2 {
             let (element, r) = self.end(side);
             let mut loads = [[0.0; L]; M];
             for g in 0..G {
                 let point = &self.points[(element * (degree + 1) + r) * G + g];
-                let weight = per_speed * self.fit.weights()[g] * point.around * point.gap.powi(3);
+                let conducts = self.accuracy.elements as f64 * point.around * point.gap.powi(3);
+                let weight = self.fit.weights()[g] * self.pulls[side][g].by_flux * conducts;
                 for term in 0..terms {
                     let share = weight * self.fit.term(term)[0][g];
                     for k in 0..M {
@@ -281,14 +302,14 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
     /// Adds how the conditions at the fronts change with the places of their points.
     fn add_conditions(&self, lines: &mut [LineRates<L>; G]) {
         let terms = (L - BEFORE) / 2;
-        let per_speed = 1.0 / self.motion[0].hypot(self.motion[1]);
         let degree = self.accuracy.degree;
         for side in 0..2 {
             let (element, r) = self.end(side);
             for (g, line) in lines.iter_mut().enumerate() {
                 let point = &self.points[(element * (degree + 1) + r) * G + g];
-                let flux = dot(self.fluxes(side, g), self.motion);
-                let weighted = per_speed * self.fit.weights()[g] * flux;
+                let pull = &self.pulls[side][g];
+                let flux = dot(pull.fluxes, self.motion);
+                let weighted = self.fit.weights()[g] * pull.by_flux * flux;
                 let PointRates { moved, grown } = self.point_rates(point);
                 for term in 0..terms {
                     let lane = BEFORE + side * terms + term;
@@ -298,6 +319,67 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
                     line.length[lane] -= part;
                 }
             }
+        }
+    }
+
+    /// Adds how the conditions change with the fronts where the flux stays.
+    fn add_pulls(&self, rates: &mut Rates<L>) {
+        let terms = (L - BEFORE) / 2;
+        for side in 0..2 {
+            let first = BEFORE + side * terms;
+            for g in 0..G {
+                let weight = self.fit.weights()[g];
+                let pull = &self.pulls[side][g];
+                for row in 0..terms {
+                    let part = weight * self.fit.term(row)[0][g];
+                    for column in 0..terms {
+                        let [value, rise] = self.fit.term(column);
+                        rates[first + row][first + column] +=
+                            part * (pull.by_angle * value[g] + pull.by_slope * rise[g]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Fills where the fronts of the last solution would go.
+    pub(super) fn pull_fronts(&mut self) {
+        for side in 0..2 {
+            for g in 0..G {
+                self.pulls[side][g] = self.pull(side, g);
+            }
+        }
+    }
+
+    /// Where a front would go on its line: to where the sink behind it has used up the flux across it,
+    ///
+    /// `cos(after) = cos(before) + (1 + (D/B)^2 front'^2) H^3 p_theta/|w|`
+    ///
+    /// with the angles beyond a quarter of a turn from the motion. Where there is no such angle, close to the
+    /// ends, it tends to zero smoothly, and what slanting adds tends to a bound.
+    fn pull(&self, side: usize, g: usize) -> Pull {
+        let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let before = sign * at - FRAC_PI_2;
+        let square = self.aspect * slope * slope;
+        let share = 1.0 / (square / SLOPE_CAP).hypot(1.0);
+        let steep = 1.0 + square * share;
+        let fluxes = self.fluxes(side, g);
+        let flux = dot(fluxes, self.motion) / self.motion[0].hypot(self.motion[1]);
+        let (sin, cos) = before.sin_cos();
+        // 2 - 2 cos(after), kept positive.
+        let chord = 2.0 * (1.0 - cos - sign * steep * flux);
+        let root = chord.hypot(LEAST_CHORD);
+        let kept = (0.5 * (chord + root)).min(MOST_CHORD);
+        let after = 2.0 * (0.5 * kept.sqrt()).asin();
+        let by_chord = 0.5 * (1.0 + chord / root) / (kept * (4.0 - kept)).sqrt();
+        let by_flux = -2.0 * by_chord;
+        Pull {
+            fluxes,
+            way: sign * (after - before),
+            by_flux: by_flux * steep / self.motion[0].hypot(self.motion[1]),
+            by_angle: 2.0 * by_chord * sin - 1.0,
+            by_slope: by_flux * flux * 2.0 * self.aspect * slope * share.powi(3),
         }
     }
 

@@ -88,6 +88,7 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
         }
         self.answers.copy_from_slice(&self.sources);
         self.matrix.solve(&mut self.answers);
+        self.pull_fronts();
         self.answers.iter().flatten().all(|u| u.is_finite())
     }
 
