@@ -41,6 +41,7 @@ pub struct AlignedFilm {
 #[derive(Debug, Clone)]
 enum Kernel {
     HalfNarrow(Box<HalfFilm<4, 4>>),
+    HalfMiddle(Box<HalfFilm<4, 6>>),
     HalfWide(Box<HalfFilm<6, 6>>),
     HalfFine(Box<HalfFilm<8, 8>>),
     HalfFinest(Box<HalfFilm<12, 12>>),
@@ -94,6 +95,9 @@ impl AlignedFilm {
         let kernel = match (cavitation, precision) {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
                 Kernel::HalfNarrow(Box::new(HalfFilm::new(d_over_b, 64)))
+            }
+            (Cavitation::Gumbel, Precision::OnLine) if width_ratio <= WIDE => {
+                Kernel::HalfMiddle(Box::new(HalfFilm::new(d_over_b, 64)))
             }
             (Cavitation::Gumbel, Precision::OnLine) => {
                 Kernel::HalfWide(Box::new(HalfFilm::new(d_over_b, 64)))
@@ -169,6 +173,7 @@ impl AlignedFilm {
         let eps = relative_eccentricity;
         let (found, settled) = match &mut self.kernel {
             Kernel::HalfNarrow(film) => (film.force(eps, motion), true),
+            Kernel::HalfMiddle(film) => (film.force(eps, motion), true),
             Kernel::HalfWide(film) => (film.force(eps, motion), true),
             Kernel::HalfFine(film) => (film.force(eps, motion), true),
             Kernel::HalfFinest(film) => (film.force(eps, motion), true),
@@ -222,6 +227,7 @@ impl AlignedFilm {
         }
         match &self.kernel {
             Kernel::HalfNarrow(film) => film.figures(),
+            Kernel::HalfMiddle(film) => film.figures(),
             Kernel::HalfWide(film) => film.figures(),
             Kernel::HalfFine(film) => film.figures(),
             Kernel::HalfFinest(film) => film.figures(),
