@@ -41,14 +41,16 @@ pub struct AlignedFilm {
 #[derive(Debug, Clone)]
 enum Kernel {
     HalfNarrow(Box<HalfFilm<4, 4>>),
+    HalfMiddle(Box<HalfFilm<4, 6>>),
     HalfWide(Box<HalfFilm<6, 6>>),
     HalfFine(Box<HalfFilm<8, 8>>),
     HalfFinest(Box<HalfFilm<12, 12>>),
-    FittedNarrow(Box<FittedFilm<4, 6>>),
-    FittedWide(Box<FittedFilm<5, 7>>),
-    FittedWider(Box<FittedFilm<6, 8>>),
-    FittedFine(Box<FittedFilm<7, 9>>),
-    FittedFinest(Box<FittedFilm<9, 11>>),
+    FittedNarrow(Box<FittedFilm<4, 6, 8>>),
+    FittedWide(Box<FittedFilm<5, 7, 8>>),
+    FittedWider(Box<FittedFilm<6, 8, 8>>),
+    FittedFine(Box<FittedFilm<7, 9, 10>>),
+    FittedNearContact(Box<FittedFilm<7, 9, 12>>),
+    FittedFinest(Box<FittedFilm<9, 11, 14>>),
 }
 
 /// Largest width over diameter that four shapes are enough for.
@@ -59,6 +61,9 @@ const WIDE: f64 = 1.0;
 const MODULUS: f64 = 0.96;
 /// The same where nodes crowd in the narrowest gap.
 const CROWDED: f64 = 0.985;
+/// Error of the force over its size that the fronts of a fitted film may leave, before what they still have to move
+/// is accounted for.
+const SETTLED: f64 = 1e-8;
 
 impl AlignedFilm {
     /// Film of a bearing of this width over diameter, all ends at cavitation pressure, cyclic.
@@ -77,20 +82,22 @@ impl AlignedFilm {
         }
         let d_over_b = 1.0 / width_ratio;
         let is_narrow = width_ratio <= NARROW;
-        let fitted = |elements, degree, terms, tolerance| Accuracy {
+        let fitted = |elements, degree| Accuracy {
             elements,
             degree,
-            terms,
             modulus: MODULUS,
-            tolerance,
+            tolerance: SETTLED,
         };
-        let crowded = |elements, degree, terms| Accuracy {
+        let crowded = |elements, degree| Accuracy {
             modulus: CROWDED,
-            ..fitted(elements, degree, terms, 1e-7)
+            ..fitted(elements, degree)
         };
         let kernel = match (cavitation, precision) {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
                 Kernel::HalfNarrow(Box::new(HalfFilm::new(d_over_b, 64)))
+            }
+            (Cavitation::Gumbel, Precision::OnLine) if width_ratio <= WIDE => {
+                Kernel::HalfMiddle(Box::new(HalfFilm::new(d_over_b, 64)))
             }
             (Cavitation::Gumbel, Precision::OnLine) => {
                 Kernel::HalfWide(Box::new(HalfFilm::new(d_over_b, 64)))
@@ -105,26 +112,26 @@ impl AlignedFilm {
                 Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
-                let accuracy = fitted(5, 6, 3, 3e-6);
+                let accuracy = fitted(5, 6);
                 Kernel::FittedNarrow(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if width_ratio > WIDE => {
-                let accuracy = fitted(6, 7, 3, 3e-6);
+                let accuracy = fitted(6, 7);
                 Kernel::FittedWider(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::OnLine) => {
-                let accuracy = fitted(6, 6, 3, 3e-6);
+                let accuracy = fitted(6, 6);
                 Kernel::FittedWide(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::Fine) => {
-                let accuracy = fitted(8, 7, 4, 1e-7);
+                let accuracy = fitted(8, 7);
                 Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::NearContact) => {
-                Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, crowded(8, 8, 5))))
+                Kernel::FittedNearContact(Box::new(FittedFilm::new(d_over_b, crowded(8, 8))))
             }
             (Cavitation::Reynolds, Precision::Finest) => {
-                Kernel::FittedFinest(Box::new(FittedFilm::new(d_over_b, crowded(10, 8, 6))))
+                Kernel::FittedFinest(Box::new(FittedFilm::new(d_over_b, crowded(10, 8))))
             }
             (Cavitation::MassConserving, _) => {
                 return Err(FilmError::Unsupported {
@@ -166,6 +173,7 @@ impl AlignedFilm {
         let eps = relative_eccentricity;
         let (found, settled) = match &mut self.kernel {
             Kernel::HalfNarrow(film) => (film.force(eps, motion), true),
+            Kernel::HalfMiddle(film) => (film.force(eps, motion), true),
             Kernel::HalfWide(film) => (film.force(eps, motion), true),
             Kernel::HalfFine(film) => (film.force(eps, motion), true),
             Kernel::HalfFinest(film) => (film.force(eps, motion), true),
@@ -173,6 +181,7 @@ impl AlignedFilm {
             Kernel::FittedWide(film) => film.force(eps, motion),
             Kernel::FittedWider(film) => film.force(eps, motion),
             Kernel::FittedFine(film) => film.force(eps, motion),
+            Kernel::FittedNearContact(film) => film.force(eps, motion),
             Kernel::FittedFinest(film) => film.force(eps, motion),
         };
         let outcome = if settled {
@@ -218,6 +227,7 @@ impl AlignedFilm {
         }
         match &self.kernel {
             Kernel::HalfNarrow(film) => film.figures(),
+            Kernel::HalfMiddle(film) => film.figures(),
             Kernel::HalfWide(film) => film.figures(),
             Kernel::HalfFine(film) => film.figures(),
             Kernel::HalfFinest(film) => film.figures(),
@@ -225,6 +235,7 @@ impl AlignedFilm {
             Kernel::FittedWide(film) => film.figures(),
             Kernel::FittedWider(film) => film.figures(),
             Kernel::FittedFine(film) => film.figures(),
+            Kernel::FittedNearContact(film) => film.figures(),
             Kernel::FittedFinest(film) => film.figures(),
         }
     }

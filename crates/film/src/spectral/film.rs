@@ -20,7 +20,7 @@ use crate::force::{
     Capabilities, Conditions, Extreme, FilmError, FilmForce, FilmSummary, Linearised, Outcome,
     Reaction, Step, Tangent,
 };
-use crate::frame::{Frame, rotate};
+use crate::frame::rotate;
 use crate::integrals::Units;
 use crate::journal_state::JournalState;
 use crate::narrowest::GapSearch;
@@ -96,8 +96,9 @@ impl OnlineFilm {
     /// For B/D from 0.25 to 1.5 and all directions of motion the force is, by its size, within
     /// - closure `gumbel`: 4e-5 up to a relative eccentricity of 0.95, 1.5e-4 up to 0.99; its derivatives
     ///   are those of the discrete force;
-    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives leave the fronts that bound
-    ///   the film where they are and are within 1e-3 of force over gap, and of force over motion.
+    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives are those of the discrete force
+    ///   too, with fronts that move along. Where the elements cannot place a front, far away in a wide gap, the
+    ///   derivatives leave it where it is: above a relative eccentricity of 0.9, and the force does not feel it.
     ///
     /// (`film/tests/online.rs`)
     ///
@@ -309,21 +310,79 @@ fn aligned(
     units: &Units,
 ) -> Result<Solved, FilmError> {
     // A journal in the centre has no line of centres: the shell frame serves as well.
-    let is_centred = state.eccentricity() < CENTRED * units.clearance;
-    let (turned, local) = if is_centred {
-        let position = [0.0; 2];
-        (0.0, JournalState { position, ..*state })
-    } else {
-        let turned = state.line_of_centres_angle();
-        (turned, Frame::LineOfCentres.to_grid(state, turned))
+    let eccentricity = state.eccentricity();
+    if eccentricity < CENTRED * units.clearance {
+        let local = JournalState {
+            position: [0.0; 2],
+            ..*state
+        };
+        let (force, tangent, outcome) = film_force(kernel, bearing, &local, units)?;
+        return Ok((of_force(force), shell_tangent(&tangent), outcome, 0.0));
+    }
+    let direction = state.position.map(|part| part / eccentricity);
+    let local = JournalState {
+        position: [eccentricity, 0.0],
+        velocity: turned_back(state.velocity, direction),
+        ..*state
     };
-    let (force, tangent, outcome) = film_force(kernel, bearing, &local, units)?;
-    let reaction = Reaction {
-        film_force: force,
+    let (force, mut tangent, outcome) = film_force(kernel, bearing, &local, units)?;
+    // Away from the line of centres the frame turns, and the film with it (`frame`).
+    let [along, across] = local.velocity;
+    for (row, own) in [-force[1], force[0]].into_iter().enumerate() {
+        let rate = tangent.by_rate[row];
+        tangent.by_position[row][1] = (own + rate[0] * across - rate[1] * along) / eccentricity;
+    }
+    let tangent = Planar {
+        by_position: turned_matrix(&tangent.by_position, direction),
+        by_rate: turned_matrix(&tangent.by_rate, direction),
+    };
+    let turned = state.line_of_centres_angle();
+    Ok((
+        of_force(turned_on(force, direction)),
+        shell_tangent(&tangent),
+        outcome,
+        turned,
+    ))
+}
+
+/// A tangent without tilt.
+#[derive(Debug, Clone, Copy, Default)]
+struct Planar {
+    by_position: [[f64; 2]; 2],
+    by_rate: [[f64; 2]; 2],
+}
+
+fn of_force(film_force: [f64; 2]) -> Reaction {
+    Reaction {
+        film_force,
         ..Reaction::default()
-    };
-    let (reaction, tangent) = Frame::LineOfCentres.from_grid(&local, turned, reaction, tangent);
-    Ok((reaction, tangent, outcome, turned))
+    }
+}
+
+fn shell_tangent(planar: &Planar) -> Tangent {
+    let mut tangent = Tangent::default();
+    for row in 0..2 {
+        tangent.by_position[row][..2].copy_from_slice(&planar.by_position[row]);
+        tangent.by_rate[row][..2].copy_from_slice(&planar.by_rate[row]);
+    }
+    tangent
+}
+
+/// A vector in the frame whose +X has this direction.
+fn turned_back([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> [f64; 2] {
+    [cos * x + sin * y, cos * y - sin * x]
+}
+
+/// A vector of that frame.
+fn turned_on([x, y]: [f64; 2], [cos, sin]: [f64; 2]) -> [f64; 2] {
+    [cos * x - sin * y, sin * x + cos * y]
+}
+
+/// A matrix of that frame.
+fn turned_matrix(matrix: &[[f64; 2]; 2], direction: [f64; 2]) -> [[f64; 2]; 2] {
+    let [x, y] = matrix.map(|row| turned_on(row, direction));
+    let columns = [0, 1].map(|column: usize| turned_on([x[column], y[column]], direction));
+    [0, 1].map(|row: usize| columns.map(|column| column[row]))
 }
 
 /// Force (N) and its tangent in the frame of the line of centres.
@@ -332,14 +391,14 @@ fn film_force(
     bearing: &Bearing,
     local: &JournalState,
     units: &Units,
-) -> Result<([f64; 2], Tangent, Outcome), FilmError> {
+) -> Result<([f64; 2], Planar, Outcome), FilmError> {
     let c = units.clearance;
     let eps = local.position[0] / c;
     let speed = local.mean_speed();
     let motion = [local.velocity[0] / c, local.velocity[1] / c - speed * eps];
     let unit = units.pressure * units.area * bearing.width / bearing.diameter;
     let (found, outcome) = kernel.force(eps, motion)?;
-    let mut tangent = Tangent::default();
+    let mut tangent = Planar::default();
     for row in 0..2 {
         let by_motion = found.by_motion[row];
         tangent.by_rate[row][0] = unit / c * by_motion[0];

@@ -5,15 +5,15 @@
 //! p = 0 all around it;   H^3 p_theta = 0 at a and b    which places the fronts
 //! ```
 //! The film is mapped onto a rectangle between its fronts, where pressure is smooth: elements of high
-//! degree around, even polynomials across. The fronts move by Newton's method: the pressure that is
-//! zero on a front which is off by d is right to order d^2, and the front belongs where the flux across
-//! it has been used up by the sink behind it,
+//! degree around, even polynomials across. The pressure that is zero on a front which is off by d is right to
+//! order d^2, and the front belongs where the flux across it has been used up by the sink behind it,
 //!
 //! ```text
 //! |w| (sin(theta' - omega) - sin(theta - omega)) = (1 + (D/B)^2 front'^2) H^3 p_theta
 //! ```
-//! with omega the angle of the motion. The force follows to order d^2 too, so that a few updates
-//! suffice, and its derivatives need no third solution: `u dA/de p` with the two u of unit motions.
+//! with omega the angle of the motion, in the mean weighted with each term of the front. From afar each line moves
+//! its fronts by itself, then Newton's method all together, with the derivatives of the discrete equations
+//! (`moving`), which also give those of the force with fronts that follow the journal.
 //! Limits: the film is torn apart on every line across the width; it is, up to widths of some
 //! diameters. Pressures over 12 eta R^2/c^2, motion over c.
 //! References: H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber, Das Schwimmlager, VDI 1933; trial free
@@ -24,10 +24,13 @@ use super::answer::AlignedForce;
 use super::around::SommerfeldAngle;
 use super::profile::ProfileMatrix;
 use super::quadrature::{Element, gauss_legendre};
-use fronts::{FrontFit, Fronts};
+use fronts::{BEFORE, FrontFit, Fronts};
+use moving::{Pull, Rates};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+mod figures;
 mod fronts;
+mod moving;
 mod strip;
 
 /// How far beyond the half turn with w n > 0 a cold film is thought to reach, rad.
@@ -38,12 +41,21 @@ const LONGEST_MOVE: f64 = 0.4;
 const LEAST_RUPTURE: f64 = 0.05;
 /// Share of the slope of a front that counts at most in its move.
 const SLOPE_CAP: f64 = 0.5;
+/// Newton's method takes over where the fronts move less, rad (mean square).
+const CLOSE: f64 = 0.03;
+/// It has new rates where its changes fall less than to this share.
+const SLOW: f64 = 0.3;
+/// Its changes are at most this, rad; a greater one means that it is lost.
+const FARTHEST: f64 = 0.3;
+/// Changes of the force over its size that lines which move by themselves may still make.
+const UNFELT: f64 = 3e-6;
 /// More updates than this mean that the fronts do not settle.
 const MOST_UPDATES: usize = 14;
 
-/// Film of an aligned journal between fitted fronts; `M` shapes across, `G` lines on half the width.
+/// Film of an aligned journal between fitted fronts; `M` shapes across, `G` lines on half the width, fronts of
+/// `L - 2` parts together.
 #[derive(Debug, Clone)]
-pub(super) struct FittedFilm<const M: usize, const G: usize> {
+pub(super) struct FittedFilm<const M: usize, const G: usize, const L: usize> {
     /// (D/B)^2.
     aspect: f64,
     accuracy: Accuracy,
@@ -54,14 +66,23 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     /// Right-hand sides for motion along and across, and the answers u, by unknown.
     sources: Vec<[f64; 2]>,
     answers: Vec<[f64; 2]>,
+    /// The answers and the adjoints of the fronts' conditions.
+    fields: Vec<[f64; L]>,
     points: Vec<strip::Point>,
     map: SommerfeldAngle,
     /// The state of the last solution.
     eps: f64,
     motion: [f64; 2],
-    /// Fronts of the last solution, from the direction of motion, and where they would go next, rad.
+    /// Fronts of the last solution, from the direction of motion.
     fronts: Fronts<G>,
-    wishes: [[f64; G]; 2],
+    /// Where each line would have them.
+    pulls: [[Pull; G]; 2],
+    /// Their parts, rad, first of eccentricity and direction nothing.
+    parts: [f64; L],
+    /// How the equations change, the inverse of the fronts' part, how the fronts follow eccentricity and direction.
+    rates: Rates<L>,
+    inverse: Rates<L>,
+    follow: [[f64; 2]; L],
     is_warm: bool,
 }
 
@@ -72,11 +93,9 @@ pub(super) struct Accuracy {
     pub elements: usize,
     /// Their degree.
     pub degree: usize,
-    /// Terms of the fronts.
-    pub terms: usize,
     /// Modulus of the substitution over the relative eccentricity.
     pub modulus: f64,
-    /// Change of the force over its size by a further update.
+    /// Error of the force over its size that fronts may leave.
     pub tolerance: f64,
 }
 
@@ -104,7 +123,7 @@ impl<const M: usize, const G: usize> Shapes<M, G> {
     }
 }
 
-impl<const M: usize, const G: usize> FittedFilm<M, G> {
+impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
     /// For a film of this D/B.
     pub(super) fn new(d_over_b: f64, accuracy: Accuracy) -> Self {
         let Accuracy {
@@ -124,6 +143,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             matrix: ProfileMatrix::new(starts),
             sources: vec![[0.0; 2]; nodes * M],
             answers: vec![[0.0; 2]; nodes * M],
+            fields: vec![[0.0; L]; nodes * M],
             points: vec![strip::Point::default(); elements * (degree + 1) * G],
             map: SommerfeldAngle::new(0.0, accuracy.modulus),
             eps: 0.0,
@@ -132,7 +152,11 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 angles: [[0.0; G]; 2],
                 slopes: [[0.0; G]; 2],
             },
-            wishes: [[0.0; G]; 2],
+            pulls: [[Pull::default(); G]; 2],
+            parts: [0.0; L],
+            rates: [[0.0; L]; L],
+            inverse: [[0.0; L]; L],
+            follow: [[0.0; 2]; L],
             is_warm: false,
         }
     }
@@ -150,8 +174,20 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             self.begin(eps, driven);
             settled = self.settle();
         }
-        self.is_warm = settled;
-        let mut found = self.tangents();
+        self.is_warm = settled && self.differentiate();
+        let mut found = if self.is_warm {
+            let change = self.newton_change();
+            for (part, change) in self.parts.iter_mut().zip(&change) {
+                *part += change;
+            }
+            self.tangents(&change)
+        } else {
+            // Where the elements are too coarse for the fronts of a gap so wide that the force does not feel them.
+            settled = self.settle_by_lines();
+            self.differentiate();
+            self.follow = [[0.0; 2]; L];
+            self.tangents(&[0.0; L])
+        };
         if is_at_rest {
             found.force = [0.0; 2];
             found.by_eccentricity = [0.0; 2];
@@ -159,61 +195,107 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         (found, settled)
     }
 
-    /// Fronts to begin with: those of the last film if it was a similar one.
+    /// Fronts to begin with: those of the last film if it was a similar one, moved on as they follow.
     fn begin(&mut self, eps: f64, motion: [f64; 2]) {
         let turn = cross(self.motion, motion).atan2(dot(self.motion, motion));
-        let near = (eps - self.eps).abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3;
+        let rise = eps - self.eps;
+        let near = rise.abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3;
         self.eps = eps;
         self.motion = motion;
         self.map = SommerfeldAngle::new(eps, self.accuracy.modulus);
-        if !(self.is_warm && near) {
+        if self.is_warm && near {
+            for (part, [by_rise, by_turn]) in self.parts.iter_mut().zip(&self.follow) {
+                *part += by_rise * rise + by_turn * turn;
+            }
+        } else {
             let reach = FRAC_PI_2 + FIRST_REACH;
-            self.wishes = [[-reach; G], [reach; G]];
+            self.parts = self.fit.fit(&[[-reach; G], [reach; G]], 1);
             self.is_warm = false;
         }
     }
 
-    /// Updates until a further one would not change the force.
+    /// Moves the fronts to where their conditions put them: from afar each line by itself, then all by Newton's
+    /// method, with rates known from a neighbour while that brings them on.
     fn settle(&mut self) -> bool {
-        let tolerance = self.accuracy.tolerance;
-        let mut terms = self.accuracy.terms.min(3);
+        let terms = (L - BEFORE) / 2;
+        let mut is_close = self.is_warm;
+        let mut last = f64::INFINITY;
+        for update in 0..MOST_UPDATES {
+            self.fronts = self.fit.fronts(&self.parts);
+            if !self.solve() {
+                return false;
+            }
+            if !is_close {
+                let parts = self.fit.fit(
+                    &self.wishes(),
+                    if update > 3 { terms } else { terms.min(3) },
+                );
+                let change = std::array::from_fn(|part| parts[part] - self.parts[part]);
+                is_close = self.fit.size::<L>(&change) < CLOSE;
+                if !is_close {
+                    self.parts = parts;
+                    continue;
+                }
+                if !self.differentiate() {
+                    return false;
+                }
+            }
+            let mut change = self.newton_change();
+            let mut size = self.fit.size(&change);
+            if self.aspect.max(1.0) * size * size < self.accuracy.tolerance {
+                return true;
+            }
+            if size > SLOW * last {
+                if !self.differentiate() {
+                    return false;
+                }
+                change = self.newton_change();
+                size = self.fit.size(&change);
+            }
+            if size > FARTHEST || size > last || size.is_nan() {
+                return false;
+            }
+            for (part, change) in self.parts.iter_mut().zip(change) {
+                *part += change;
+            }
+            last = size;
+        }
+        false
+    }
+
+    /// Lets each line move its fronts by itself until the force no longer feels it.
+    fn settle_by_lines(&mut self) -> bool {
+        self.begin(self.eps, self.motion);
+        let terms = (L - BEFORE) / 2;
         let (mut before, mut last_change) = ([0.0; 2], f64::INFINITY);
         for update in 0..MOST_UPDATES {
-            self.fronts = self.fit.fit(&self.wishes, terms);
+            self.fronts = self.fit.fronts(&self.parts);
             if !self.solve() {
                 return false;
             }
             let force = self.force_of_answers();
             let size = force[0].hypot(force[1]);
             let change = (force[0] - before[0]).hypot(force[1] - before[1]) / size;
-            let shift = self.move_fronts(terms);
             // The force follows the fronts to second order, and so do its changes one another.
-            let by_shift = self.aspect.max(1.0) * shift * shift;
-            let by_change = (change * change / last_change).max(0.1 * change);
-            let is_done = by_shift < tolerance || (update > 1 && by_change < tolerance);
-            if terms == self.accuracy.terms && is_done {
+            let left = (change * change / last_change).max(0.1 * change);
+            if update > 1 && left < UNFELT {
                 return true;
             }
-            if shift < 0.05 || update > 3 {
-                terms = self.accuracy.terms;
-            }
+            let terms = if update > 3 { terms } else { terms.min(3) };
+            self.parts = self.fit.fit(&self.wishes(), terms);
             (before, last_change) = (force, change);
         }
-        last_change < 10.0 * tolerance
+        last_change < 10.0 * UNFELT
     }
 
-    /// Lets the fronts go where the flux across them is used up; how far they move, rad (mean square).
-    fn move_fronts(&mut self, terms: usize) -> f64 {
-        let speed = self.motion[0].hypot(self.motion[1]);
+    /// Where each line would have its fronts: where the flux across them is used up, rad.
+    fn wishes(&self) -> [[f64; G]; 2] {
         let mut wishes = [[0.0; G]; 2];
         for g in 0..G {
             for side in 0..2 {
-                let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
-                let steep = 1.0 + (self.aspect * slope * slope).min(SLOPE_CAP);
-                let used = at.sin() + steep * self.flux(side, g) / speed;
-                let beyond = std::f64::consts::PI - used.clamp(-1.0, 1.0).asin();
-                let wish = if side == 1 { beyond } else { beyond - TAU };
-                wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);
+                let way = self.pulls[side][g].way;
+                wishes[side][g] =
+                    self.fronts.angles[side][g] + way.clamp(-LONGEST_MOVE, LONGEST_MOVE);
             }
             let over = wishes[1][g] - wishes[0][g] - (TAU - LEAST_RUPTURE);
             if over > 0.0 {
@@ -221,14 +303,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 wishes[1][g] -= 0.5 * over;
             }
         }
-        self.wishes = wishes;
-        let next = self.fit.fit(&wishes, terms);
-        let moved = |side: usize| -> f64 {
-            let change =
-                std::array::from_fn(|g| next.angles[side][g] - self.fronts.angles[side][g]);
-            self.fit.size(&change)
-        };
-        moved(0).hypot(moved(1))
+        wishes
     }
 
     /// Angle of the motion from the line of centres, rad.
@@ -256,12 +331,11 @@ mod tests {
             let accuracy = |elements, degree| Accuracy {
                 elements,
                 degree,
-                terms: 4,
                 modulus: 0.96,
                 tolerance: 1e-7,
             };
-            let mut fine = FittedFilm::<7, 9>::new(d_over_b, accuracy(8, 7));
-            let mut finer = FittedFilm::<9, 11>::new(d_over_b, accuracy(10, 8));
+            let mut fine = FittedFilm::<7, 9, 10>::new(d_over_b, accuracy(8, 7));
+            let mut finer = FittedFilm::<9, 11, 10>::new(d_over_b, accuracy(10, 8));
             for eps in [0.2, 0.8, 0.95, 0.99] {
                 for k in 0..6 {
                     let direction = 0.2 + TAU * f64::from(k) / 6.0;

@@ -23,16 +23,14 @@ mod figures;
 pub(super) struct HalfFilm<const M: usize, const G: usize> {
     across: Across<M, G>,
     film: FullFilm<M>,
-    lines: Vec<Line<G>>,
+    /// Shapes on the lines, each by how much of it is driven.
+    factors: [[f64; G]; M],
+    /// Their integrals across the width.
+    whole: [f64; M],
+    /// Answers on the lines of Gauss points, by node.
+    lines: Vec<Pair<G>>,
     changes: Vec<Change>,
     motion: [f64; 2],
-}
-
-/// A node on all lines of Gauss points.
-#[derive(Debug, Clone, Copy)]
-struct Line<const G: usize> {
-    answer: Pair<G>,
-    slope: Pair<G>,
 }
 
 /// A change of sign on a line: the positive node next to it, as a place on the whole ring of nodes,
@@ -45,10 +43,10 @@ struct Change {
 }
 
 /// Integrals of the answer to each motion times the weight of each force, and their slopes.
-#[derive(Debug, Clone, Copy)]
-struct Sums<const G: usize> {
-    value: [Pair<G>; 2],
-    slope: [Pair<G>; 2],
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    value: [[f64; 2]; 2],
+    slope: [[f64; 2]; 2],
 }
 
 /// Bits of the lines on which a node at s and its mirror image at -s are positive.
@@ -59,17 +57,14 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
     pub(super) fn new(d_over_b: f64, count: usize) -> Self {
         let across = Across::new();
         let film = FullFilm::new(&across, d_over_b, count);
-        let zero = [[0.0; G]; 2];
+        let integrals = across.integrals;
+        let factors = std::array::from_fn(|k| across.values[k].map(|value| integrals[k] * value));
         Self {
             across,
             film,
-            lines: vec![
-                Line {
-                    answer: zero,
-                    slope: zero,
-                };
-                count + 1
-            ],
+            factors,
+            whole: integrals.map(|integral| integral * integral),
+            lines: vec![[[0.0; G]; 2]; count + 1],
             changes: Vec::with_capacity(8 * G),
             motion: [0.0; 2],
         }
@@ -90,65 +85,36 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
 
     /// From shapes to lines.
     fn spread_on_lines(&mut self) {
-        let across = &self.across;
-        let mut factors = across.values;
-        for (row, integral) in factors.iter_mut().zip(&across.integrals) {
-            for value in row {
-                *value *= integral;
-            }
-        }
-        let films = self.film.answer.iter().zip(&self.film.slope);
-        for (line, (answer, slope)) in self.lines.iter_mut().zip(films) {
+        for (line, answer) in self.lines.iter_mut().zip(&self.film.answer) {
             for p in 0..2 {
-                let (mut value, mut rise) = ([0.0; G], [0.0; G]);
+                let mut value = [0.0; G];
                 for k in 0..M {
                     for g in 0..G {
-                        value[g] += answer[p][k] * factors[k][g];
-                        rise[g] += slope[p][k] * factors[k][g];
+                        value[g] += answer[p][k] * self.factors[k][g];
                     }
                 }
-                line.answer[p] = value;
-                line.slope[p] = rise;
+                line[p] = value;
             }
         }
     }
 
     /// Sums over the nodes that are not negative; notes the changes of sign.
-    fn sum_positive(&mut self) -> Sums<G> {
-        let zero = [[[0.0; G]; 2]; 2];
-        let mut sums = Sums {
-            value: zero,
-            slope: zero,
-        };
+    fn sum_positive(&mut self) -> Sums {
+        let mut sums = Sums::default();
         self.changes.clear();
         let last = self.half();
         let mut before: Option<Signs> = None;
-        for (j, (line, node)) in self.lines.iter().zip(&self.film.nodes).enumerate() {
-            let has_mirror_image = if j == 0 || j == last { 0.0 } else { 1.0 };
-            let (mut even, mut odd) = ([0.0; G], [0.0; G]);
+        for (j, line) in self.lines.iter().enumerate() {
             let mut signs = [0; 2];
             for g in 0..G {
-                let along = self.motion[0] * line.answer[0][g];
-                let across = self.motion[1] * line.answer[1][g];
-                let (here, mirrored) = (along + across >= 0.0, along - across >= 0.0);
-                signs[0] |= u32::from(here) << g;
-                signs[1] |= u32::from(mirrored) << g;
-                let here = if here { 1.0 } else { 0.0 };
-                let mirrored = if mirrored { has_mirror_image } else { 0.0 };
-                even[g] = here + mirrored;
-                odd[g] = here - mirrored;
+                let along = self.motion[0] * line[0][g];
+                let across = self.motion[1] * line[1][g];
+                signs[0] |= u32::from(along + across >= 0.0) << g;
+                signs[1] |= u32::from(along - across >= 0.0) << g;
             }
-            for answer in 0..2 {
-                for force in 0..2 {
-                    let Dual { value, slope } = node.source[force];
-                    let counts = if answer == force { &even } else { &odd };
-                    for g in 0..G {
-                        let u = line.answer[answer][g] * counts[g];
-                        sums.value[answer][force][g] += u * value;
-                        sums.slope[answer][force][g] +=
-                            u * slope + line.slope[answer][g] * counts[g] * value;
-                    }
-                }
+            if signs != [0; 2] {
+                let mirrored = if j == 0 || j == last { 0 } else { signs[1] };
+                self.add_node(j, [signs[0], mirrored], &mut sums);
             }
             if let Some(before) = before
                 && before != signs
@@ -160,17 +126,64 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
         sums
     }
 
+    /// Adds a node and its mirror image, as far as they are positive.
+    fn add_node(&self, j: usize, signs: Signs, sums: &mut Sums) {
+        let [here, mirrored] = signs.map(|signs| self.counted(signs));
+        let node = &self.film.nodes[j];
+        let (answer, slope) = (&self.film.answer[j], &self.film.slope[j]);
+        for p in 0..2 {
+            // What is even and what is odd about the line of centres.
+            let (mut value, mut rise) = ([0.0; 2], [0.0; 2]);
+            for k in 0..M {
+                let counts = [here[k] + mirrored[k], here[k] - mirrored[k]];
+                for parity in 0..2 {
+                    value[parity] += counts[parity] * answer[p][k];
+                    rise[parity] += counts[parity] * slope[p][k];
+                }
+            }
+            for q in 0..2 {
+                let parity = usize::from(p != q);
+                let weight = node.source[q];
+                sums.value[p][q] += value[parity] * weight.value;
+                sums.slope[p][q] += value[parity] * weight.slope + rise[parity] * weight.value;
+            }
+        }
+    }
+
+    /// Integrals of the shapes over the lines of these bits.
+    #[inline]
+    fn counted(&self, lines: u32) -> [f64; M] {
+        if lines == 0 {
+            return [0.0; M];
+        }
+        if lines == (1 << G) - 1 {
+            return self.whole;
+        }
+        let mut counted = [0.0; M];
+        for g in (0..G).filter(|g| lines >> g & 1 == 1) {
+            for k in 0..M {
+                counted[k] += self.across.weights[g] * self.factors[k][g];
+            }
+        }
+        counted
+    }
+
     /// Adds what the sum has too much or too little at a change of sign.
-    fn correct(&self, change: &Change, sums: &mut Sums<G>) {
+    fn correct(&self, change: &Change, sums: &mut Sums) {
         let g = change.line;
         let places: [(usize, f64); 4] =
             [-1, 0, 1, 2].map(|i| on_half(self.half(), change.node + change.way * i));
         // Parity of the answer to motion across and of the weight of the force across.
         let parity = |odd: usize, sign: f64| if odd == 1 { sign } else { 1.0 };
         let answers: [Stencil; 2] =
-            [0, 1].map(|p| places.map(|(j, sign)| parity(p, sign) * self.lines[j].answer[p][g]));
+            [0, 1].map(|p| places.map(|(j, sign)| parity(p, sign) * self.lines[j][p][g]));
+        let slope_at = |p: usize, j: usize| -> f64 {
+            let slope = &self.film.slope[j][p];
+            (0..M).map(|k| slope[k] * self.factors[k][g]).sum()
+        };
         let slopes: [Stencil; 2] =
-            [0, 1].map(|p| places.map(|(j, sign)| parity(p, sign) * self.lines[j].slope[p][g]));
+            [0, 1].map(|p| places.map(|(j, sign)| parity(p, sign) * slope_at(p, j)));
+        let weight = self.across.weights[g];
         let weights: [[Dual; 4]; 2] = [0, 1].map(|q| {
             places.map(|(j, sign)| {
                 let Dual { value, slope } = self.film.nodes[j].source[q];
@@ -188,9 +201,9 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
             for q in 0..2 {
                 let value = weights[q].map(|weight| weight.value);
                 let slope = weights[q].map(|weight| weight.slope);
-                sums.value[p][q][g] += rest.correction(&answers[p], &value);
-                sums.slope[p][q][g] +=
-                    rest.correction(&slopes[p], &value) + rest.correction(&answers[p], &slope);
+                sums.value[p][q] += weight * rest.correction(&answers[p], &value);
+                sums.slope[p][q] += weight
+                    * (rest.correction(&slopes[p], &value) + rest.correction(&answers[p], &slope));
             }
         }
     }
@@ -200,18 +213,14 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
         self.lines.len() - 1
     }
 
-    fn gather(&self, sums: &Sums<G>) -> AlignedForce {
-        let over_lines = |lanes: &[f64; G]| -> f64 {
-            let weighted = lanes.iter().zip(&self.across.weights);
-            self.film.step * weighted.map(|(sum, weight)| sum * weight).sum::<f64>()
-        };
+    fn gather(&self, sums: &Sums) -> AlignedForce {
         let mut found = AlignedForce::default();
         for q in 0..2 {
             for p in 0..2 {
-                let value = over_lines(&sums.value[p][q]);
+                let value = self.film.step * sums.value[p][q];
                 found.force[q] += self.motion[p] * value;
                 found.by_motion[q][p] = value;
-                found.by_eccentricity[q] += self.motion[p] * over_lines(&sums.slope[p][q]);
+                found.by_eccentricity[q] += self.motion[p] * self.film.step * sums.slope[p][q];
             }
         }
         found

@@ -65,7 +65,7 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
 
     /// By the angles of all changes of sign on all lines.
     fn share(&self) -> f64 {
-        let last = &self.lines[self.half()].answer;
+        let last = &self.lines[self.half()];
         let mut sum = 0.0;
         for (g, weight) in self.across.weights.iter().enumerate() {
             // A stretch that is positive on the far side begins before and ends behind it.
@@ -75,7 +75,7 @@ impl<const M: usize, const G: usize> HalfFilm<M, G> {
         for change in &self.changes {
             let values: Stencil = [-1, 0, 1, 2].map(|i| {
                 let (j, sign) = on_half(self.half(), change.node + change.way * i);
-                let [even, odd] = &self.lines[j].answer;
+                let [even, odd] = &self.lines[j];
                 self.motion[0] * even[change.line] + sign * self.motion[1] * odd[change.line]
             });
             let place = change.node as f64 + change.way as f64 * zero_of(&values);
