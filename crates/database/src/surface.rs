@@ -200,15 +200,6 @@ pub(crate) struct Centre {
     plane: [f64; 2],
 }
 
-/// What the centre adds to value and derivatives by the places and by the angle.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Added {
-    pub value: [f64; 2],
-    pub by_eccentricity: [f64; 2],
-    pub by_direction: [f64; 2],
-    pub by_angle: [f64; 2],
-}
-
 impl Centre {
     /// For surfaces of which the first is the same when mirrored, the second the negative.
     pub fn of(surface: &Surface<2>) -> Self {
@@ -237,16 +228,27 @@ impl Centre {
         }
     }
 
-    /// What is to be added at places below 1 along the eccentricity; `direction` as in [`Surface::look`], of
-    /// which `cos` and `sin` are those of the angle.
+    /// What is to be added at places below 1 along the eccentricity, the arguments as in [`Surface::look`]. The
+    /// angle is the one that the direction has in the centre, for which plane and rise belong together.
     #[cold]
-    pub fn look(&self, eccentricity: f64, direction: f64, [cos, sin]: [f64; 2]) -> Added {
+    pub fn look(&self, eccentricity: f64, direction: f64) -> Looked<2> {
         let around = weights(direction, self.rises.len() - 2);
         let square = eccentricity * eccentricity;
         let rest = 1.0 - square;
         let weight = eccentricity * rest * rest * rest;
         let weight_slope = rest * rest * (1.0 - 7.0 * square);
-        let mut added = Added::default();
+        // t = tan(pi/4 - angle/2), and its derivative by the place.
+        let per_place = 2.0 * 1.0_f64.asinh() / (self.rises.len() - 3) as f64;
+        let t = (per_place * direction - 1.0_f64.asinh()).sinh();
+        let t_slope = per_place * (1.0 + t * t).sqrt();
+        let per_square = 1.0 / (1.0 + t * t);
+        let (cos, sin) = (2.0 * t * per_square, (1.0 - t * t) * per_square);
+        let turn = -2.0 * t_slope * per_square;
+        let mut added = Looked {
+            value: [0.0; 2],
+            by_eccentricity: [0.0; 2],
+            by_direction: [0.0; 2],
+        };
         for (lane, [share, turned]) in [[cos, -sin], [sin, cos]].into_iter().enumerate() {
             let (mut rise, mut slope) = (0.0, 0.0);
             for k in 0..4 {
@@ -257,8 +259,7 @@ impl Centre {
             let missing = self.plane[lane] * share - rise;
             added.value[lane] = weight * missing;
             added.by_eccentricity[lane] = weight_slope * missing;
-            added.by_direction[lane] = -weight * slope;
-            added.by_angle[lane] = weight * self.plane[lane] * turned;
+            added.by_direction[lane] = weight * (self.plane[lane] * turned * turn - slope);
         }
         added
     }

@@ -159,10 +159,8 @@ impl TableFilm {
         let slope_e = self.eccentricity.per_coordinate() * position.atanh_slope;
         let slope_d = self.direction.per_coordinate();
         let mut found = self.forces.look(place_e, place_d);
-        let mut turned = [0.0; 2];
         if place_e < 1.0 {
-            let added = self.centre.look(place_e, place_d, [along, across]);
-            turned = added.by_angle;
+            let added = self.centre.look(place_e, place_d);
             for lane in 0..2 {
                 found.value[lane] += added.value[lane];
                 found.by_eccentricity[lane] += added.by_eccentricity[lane];
@@ -173,7 +171,7 @@ impl TableFilm {
         let moved_slope = slope_d * direction.by_eccentricity;
         Logarithms {
             value: found.value,
-            by_angle: std::array::from_fn(|k| found.by_direction[k] * turned_slope + turned[k]),
+            by_angle: std::array::from_fn(|k| found.by_direction[k] * turned_slope),
             by_eccentricity: std::array::from_fn(|k| {
                 found.by_eccentricity[k] * slope_e + found.by_direction[k] * moved_slope
             }),
