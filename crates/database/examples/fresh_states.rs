@@ -80,6 +80,12 @@ fn run(recipe: &Recipe, states: usize, seeds: &[u64]) -> Result<bool, DatabaseEr
             found.independent_maximum,
             begun.elapsed().as_secs_f64()
         );
+        let worst = &found.worst;
+        println!(
+            "# largest error at eccentricity {:.6}, {:.2} deg",
+            worst.eccentricity,
+            worst.angle.to_degrees()
+        );
         kept &= found.maximum <= recipe.target
             && found.difference_maximum <= DIFFERENCE
             && found.tangent_quantile_99 <= TANGENT

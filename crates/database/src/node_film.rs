@@ -2,8 +2,8 @@
 //!
 //! Films without cells answer in some milliseconds. Where they are known to be exact, away from contact,
 //! one is enough. Elsewhere a second one with more of everything must agree; where it does not, or its
-//! fronts do not settle, and where an opening gap bends the fronts, rings of columns (`aligned_film`), an independent method and some twenty times slower,
-//! are solved to their own tolerance.
+//! fronts do not settle, and where an opening gap bends the fronts, rings of columns (`aligned_film`), an
+//! independent method and some twenty times slower, are solved to their own tolerance.
 //!
 //! A film without cells begins from the fronts of the one before, which leaves a trace below 3e-6 of the
 //! force; so a `NodeFilm` is begun anew for every slice of a table, and answers the same there in any order
@@ -64,7 +64,7 @@ const AGREEMENT: f64 = 5.0;
 
 /// Directions, in the coordinate of tables, in which the film of an opening gap lets go of the contact: its
 /// front bends so sharply across the width that both films may err alike, by [`BENT_ERROR`].
-const BENT: [f64; 2] = [-0.72, -0.32];
+const BENT: [f64; 2] = [-0.72, -0.25];
 /// Relative eccentricity from which fronts bend so.
 const BENT_FROM: f64 = 0.97;
 /// Error of the force over its size there.
