@@ -187,6 +187,18 @@ pub struct Placing {
 }
 
 impl Placing {
+    /// Place of a coordinate.
+    #[inline]
+    pub(crate) fn of_coordinate(&self, coordinate: f64) -> f64 {
+        (coordinate - self.start) * self.per_coordinate
+    }
+
+    /// Derivative of the place by the coordinate.
+    #[inline]
+    pub(crate) fn per_coordinate(&self) -> f64 {
+        self.per_coordinate
+    }
+
     /// As [`Axis::place`].
     #[must_use]
     pub fn place(&self, value: f64) -> (f64, f64) {

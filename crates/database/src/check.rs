@@ -101,10 +101,11 @@ pub(crate) fn check_at(
         .par_iter()
         .enumerate()
         .map_init(
-            || None,
-            |film, (at, place)| {
+            || (None, None),
+            |(film, known), (at, place)| {
                 let by_rings = at % INDEPENDENT == 0;
-                let solved = solved(table.recipe(), place, derivatives, by_rings)?;
+                let solver = solver_at(table.recipe(), known, place, derivatives);
+                let solved = solved(solver, place, derivatives, by_rings)?;
                 compare(film_at(table, film, place)?, *place, &solved, derivatives)
             },
         )
@@ -166,20 +167,36 @@ fn draw(recipe: &Recipe, seed: u64, index: usize) -> Place {
     }
 }
 
-/// The solver's film at a state, cold.
-fn solved(
+/// Films at the width ratio of a place that solved nothing so far: copies of those before if it is the same.
+fn solver_at(
     recipe: &Recipe,
+    known: &mut Option<(f64, NodeFilm)>,
     place: &Place,
     tangents: bool,
-    by_rings: bool,
-) -> Result<Solved, DatabaseError> {
+) -> NodeFilm {
     // Derivatives of rings at their set are as coarse as the columns: they ask for more of these.
     let tolerance = if tangents {
         recipe.tolerance().min(FINE)
     } else {
         recipe.tolerance()
     };
-    let mut film = NodeFilm::new(recipe.closure, place.width_ratio, tolerance);
+    let width_ratio = place.width_ratio;
+    match known {
+        Some((same, film)) if *same == width_ratio => film.fresh(),
+        _ => {
+            let film = NodeFilm::new(recipe.closure, width_ratio, tolerance);
+            known.insert((width_ratio, film)).1.fresh()
+        }
+    }
+}
+
+/// The solver's film at a state, cold.
+fn solved(
+    mut film: NodeFilm,
+    place: &Place,
+    tangents: bool,
+    by_rings: bool,
+) -> Result<Solved, DatabaseError> {
     let angle = place.angle.abs();
     let solved = if by_rings {
         film.rings(place.eccentricity, angle, tangents)

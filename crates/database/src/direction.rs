@@ -38,38 +38,80 @@ impl Direction {
     /// where the gap closes) and `across` it, not both zero, at a relative eccentricity from 0 to below 1.
     #[must_use]
     pub fn new(eccentricity: f64, along: f64, across: f64) -> Self {
-        let across = across.abs();
-        let size = (along * along + across * across).sqrt();
-        let t = along / (size + across);
-        let (s, slope) = stretch(eccentricity);
-        let square = s * s;
+        let per_size = 1.0 / (along * along + across * across).sqrt();
+        Self::of_unit(
+            &Position::new(eccentricity),
+            along * per_size,
+            (across * per_size).abs(),
+        )
+    }
+
+    /// The same of a unit velocity whose component across is not negative.
+    #[inline]
+    #[must_use]
+    pub(crate) fn of_unit(position: &Position, along: f64, across: f64) -> Self {
+        let t = along / (1.0 + across);
+        let square = position.stretch * position.stretch;
         let (root, end_root) = ((square + t * t).sqrt(), (square + 1.0).sqrt());
+        let per_s = position.per_stretch;
         // asinh(t/s) over asinh(1/s), with two logarithms.
-        let per_s = 1.0 / s;
         let scale = 1.0 / ((1.0 + end_root) * per_s).ln();
         let place = (((t.abs() + root) * per_s).ln() * scale).copysign(t);
-        let by_s = scale * per_s * (place / end_root - t / root);
+        let per_root = 1.0 / root;
+        let by_s = scale * per_s * (place / end_root - t * per_root);
         Self {
             place,
-            by_angle: -0.5 * (1.0 + t * t) * scale / root,
-            by_eccentricity: by_s * slope,
+            by_angle: -0.5 * (1.0 + t * t) * scale * per_root,
+            by_eccentricity: by_s * position.stretch_slope,
         }
     }
 
     /// Angle of the effective velocity from the line of centres at a coordinate, rad, 0 to pi.
     #[must_use]
     pub fn angle(eccentricity: f64, place: f64) -> f64 {
-        let s = stretch(eccentricity).0;
+        let s = Position::new(eccentricity).stretch;
         let t = (s * ((1.0 / s).asinh() * place).sinh()).clamp(-1.0, 1.0);
         std::f64::consts::FRAC_PI_2 - 2.0 * t.atan()
     }
 }
 
-/// The stretch s and its derivative by the relative eccentricity.
-fn stretch(eccentricity: f64) -> (f64, f64) {
-    let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
-    let rest = 3.0 - 2.0 * root;
-    (root / rest, -3.0 * eccentricity / (root * rest * rest))
+/// What the eccentricity alone decides, with as few roots and divisions as there are.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Position {
+    /// `atanh` of the relative eccentricity, and its derivative by it.
+    pub atanh: f64,
+    pub atanh_slope: f64,
+    /// The stretch s, its inverse, and its derivative by the relative eccentricity.
+    stretch: f64,
+    per_stretch: f64,
+    stretch_slope: f64,
+}
+
+impl Position {
+    /// At a relative eccentricity from 0 to below 1.
+    #[inline]
+    pub fn new(eccentricity: f64) -> Self {
+        let root = ((1.0 - eccentricity) * (1.0 + eccentricity)).sqrt();
+        let per_root = 1.0 / root;
+        let rest = 3.0 - 2.0 * root;
+        let per_rest = 1.0 / rest;
+        Self {
+            // One logarithm: exact enough, as places are sums with the node's number.
+            atanh: ((1.0 + eccentricity) * per_root).ln(),
+            atanh_slope: per_root * per_root,
+            stretch: root * per_rest,
+            per_stretch: rest * per_root,
+            stretch_slope: -3.0 * eccentricity * per_root * per_rest * per_rest,
+        }
+    }
+
+    /// What is odd about a direction along the line of centres bends in the coordinate as much as its slope
+    /// times this, counted inwards from the end: `asinh(1/s) s^2/sqrt(1 + s^2)`, since the coordinate itself
+    /// bends.
+    pub fn bend(&self) -> f64 {
+        let s = self.stretch;
+        (1.0 / s).asinh() * s * s / (1.0 + s * s).sqrt()
+    }
 }
 
 /// Logarithm of the dissipation and asinh of the turn over it, of a force `[along, across]` the line of
@@ -122,6 +164,24 @@ mod tests {
                 assert!((by_angle - direction.by_angle).abs() < 1e-7 * (1.0 + by_angle.abs()));
                 assert!((by_eps - direction.by_eccentricity).abs() < 1e-6 * (1.0 + by_eps.abs()));
             }
+        }
+    }
+
+    #[test]
+    fn what_is_odd_in_the_angle_bends_as_told() {
+        for eps in [0.0, 0.5, 0.99] {
+            // sin(angle) over the coordinate, counted inwards from a = 1.
+            let h = 1e-3;
+            let [at, near, far] =
+                [0.0, h, 2.0 * h].map(|inwards| Direction::angle(eps, 1.0 - inwards).sin());
+            let bend = (far - 2.0 * near + at) / (h * h);
+            let slope = (4.0 * near - 3.0 * at - far) / (2.0 * h);
+            let expected = Position::new(eps).bend();
+            let third = 0.02 * (1.0 / (1.0 - eps)).ln().max(1.0).powi(2);
+            assert!(
+                (bend / slope - expected).abs() < third,
+                "{eps} {bend} {slope} {expected}"
+            );
         }
     }
 

@@ -2,8 +2,8 @@
 //!
 //! Films without cells answer in some milliseconds. Where they are known to be exact, away from contact,
 //! one is enough. Elsewhere a second one with more of everything must agree; where it does not, or its
-//! fronts do not settle, and where an opening gap bends the fronts, rings of columns (`aligned_film`), an independent method and some twenty times slower,
-//! are solved to their own tolerance.
+//! fronts do not settle, and where an opening gap bends the fronts, rings of columns (`aligned_film`), an
+//! independent method and some twenty times slower, are solved to their own tolerance.
 //!
 //! A film without cells begins from the fronts of the one before, which leaves a trace below 3e-6 of the
 //! force; so a `NodeFilm` is begun anew for every slice of a table, and answers the same there in any order
@@ -38,7 +38,6 @@ pub struct Solved {
 }
 
 /// Films of one closure and one width ratio.
-#[derive(Debug, Clone)]
 pub struct NodeFilm {
     closure: Cavitation,
     width_ratio: f64,
@@ -46,6 +45,8 @@ pub struct NodeFilm {
     fine: Option<AlignedFilm>,
     near_contact: Option<AlignedFilm>,
     finest: Option<AlignedFilm>,
+    /// Rings of the last eccentricity that asked for them.
+    rings: Option<(f64, Rings)>,
 }
 
 /// Up to this relative eccentricity one film of [`Precision::Fine`] is within [`FINE_ERROR`].
@@ -63,7 +64,7 @@ const AGREEMENT: f64 = 5.0;
 
 /// Directions, in the coordinate of tables, in which the film of an opening gap lets go of the contact: its
 /// front bends so sharply across the width that both films may err alike, by [`BENT_ERROR`].
-const BENT: [f64; 2] = [-0.72, -0.32];
+const BENT: [f64; 2] = [-0.72, -0.25];
 /// Relative eccentricity from which fronts bend so.
 const BENT_FROM: f64 = 0.97;
 /// Error of the force over its size there.
@@ -83,6 +84,19 @@ impl NodeFilm {
             fine: film(Precision::Fine),
             near_contact: film(Precision::NearContact),
             finest: film(Precision::Finest),
+            rings: None,
+        }
+    }
+
+    /// The same films, of which none knows what was solved before if `self` has not solved any.
+    #[must_use]
+    pub fn fresh(&self) -> Self {
+        Self {
+            fine: self.fine.clone(),
+            near_contact: self.near_contact.clone(),
+            finest: self.finest.clone(),
+            rings: None,
+            ..*self
         }
     }
 
@@ -135,16 +149,19 @@ impl NodeFilm {
         })
     }
 
-    /// The same by rings of columns alone.
-    #[must_use]
-    pub fn rings(&self, eccentricity: f64, angle: f64, tangents: bool) -> Option<Solved> {
+    /// The same by rings of columns alone: what they answer does not depend on what was asked before.
+    pub fn rings(&mut self, eccentricity: f64, angle: f64, tangents: bool) -> Option<Solved> {
         let case = FilmCase {
             eccentricity,
             width_ratio: self.width_ratio,
             closure: self.closure,
             line: false,
         };
-        let found = Rings::new(case, self.tolerance).solve(angle, self.tolerance, tangents)?;
+        if !matches!(&self.rings, Some((known, _)) if *known == eccentricity) {
+            self.rings = Some((eccentricity, Rings::new(case, self.tolerance)));
+        }
+        let (_, rings) = self.rings.as_mut()?;
+        let found = rings.solve(angle, self.tolerance, tangents)?;
         let answer = found.answer;
         Some(Solved {
             force: answer.force,

@@ -5,7 +5,7 @@
 //! s(x) = sum c_k B(x - k),   k = -1 ... n,   (c_{k-1} + 4 c_k + c_{k+1})/6 = value k
 //! ```
 //! with two more conditions, one at each end: the third derivative has no jump at the next node
-//! (not-a-knot), or the curve is even or odd about the end. A surface is the tensor product: the
+//! (not-a-knot), the curve is even or odd about the end, or its bend follows from its slope. A surface is the tensor product: the
 //! coefficients along one axis are fitted through those along the other. Error of a smooth function
 //! f in one direction: h^4/384 f''''.
 //! Reference: C. de Boor, A Practical Guide to Splines, Springer 1978, ch. IV and XVII.
@@ -13,7 +13,7 @@
 use crate::error::DatabaseError;
 
 /// Condition at one end of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum End {
     /// Third derivative without a jump at the node next to the end.
     NotAKnot,
@@ -21,6 +21,8 @@ pub enum End {
     Even,
     /// Mirrored and negated about the end; the value there is zero.
     Odd,
+    /// Second derivative over the first one, both by the place counted inwards from the end.
+    Bent(f64),
 }
 
 /// Coefficients per node of an axis with `count` nodes: two more than nodes, or one for a single node.
@@ -81,10 +83,15 @@ impl Rows {
     }
 
     fn end(&mut self, row: usize, end: End, column: impl Fn(usize) -> usize) {
+        let bent;
         let stencil: &[f64] = match end {
             End::NotAKnot => &[1.0, -4.0, 6.0, -4.0, 1.0],
             End::Even => &[1.0, 0.0, -1.0],
             End::Odd => &[1.0, -2.0, 1.0],
+            End::Bent(ratio) => {
+                bent = [1.0 + 0.5 * ratio, -2.0, 1.0 - 0.5 * ratio];
+                &bent
+            }
         };
         for (k, weight) in stencil.iter().enumerate() {
             self.matrix[row * self.n + column(k)] = *weight;
@@ -149,12 +156,13 @@ pub struct Weights {
 pub fn weights(place: f64, count: usize) -> Weights {
     let last = (count - 1) as f64;
     let place = place.clamp(0.0, last);
-    let cell = place.floor().min(last - 1.0);
-    let t = place - cell;
+    // Truncation is the floor of what is not negative.
+    let first = (place as usize).min(count - 2);
+    let t = place - first as f64;
     let u = 1.0 - t;
     let (t2, u2) = (t * t, u * u);
     Weights {
-        first: cell as usize,
+        first,
         value: [
             u2 * u / 6.0,
             (4.0 - 3.0 * t2 * (2.0 - t)) / 6.0,
@@ -225,6 +233,23 @@ mod tests {
         };
         let [coarse, fine] = [9, 17].map(error);
         assert!((14.0..18.0).contains(&(coarse / fine)), "{coarse} {fine}");
+    }
+
+    #[test]
+    fn a_bend_given_by_the_slope_is_kept() {
+        // exp(-x) bends as much as it falls; counted inwards from the right end the signs differ.
+        let nodes: Vec<f64> = (0..9).map(|k| (-0.2 * f64::from(k)).exp()).collect();
+        let c = fit(&nodes, 1, [End::Bent(-0.2), End::Bent(0.2)]).unwrap();
+        for k in 0..=160 {
+            let x = 0.05 * f64::from(k);
+            assert!((value(&c, x)[0] - (-0.2 * x).exp()).abs() < 1e-5, "{x}");
+        }
+        for (bend, slope) in [
+            (c[0] - 2.0 * c[1] + c[2], 0.5 * (c[2] - c[0])),
+            (c[10] - 2.0 * c[9] + c[8], 0.5 * (c[10] - c[8])),
+        ] {
+            assert!((bend + 0.2 * slope).abs() < 1e-15);
+        }
     }
 
     #[test]

@@ -6,8 +6,9 @@
 //! nodes go on beyond the centre, and the surfaces are as smooth there as anywhere.
 
 use crate::axis::Axis;
+use crate::direction::Direction;
 use crate::error::DatabaseError;
-use crate::spline::{End, coefficients, fit, weights};
+use crate::spline::{End, Weights, coefficients, fit, weights};
 
 /// Coefficients of `L` surfaces over (relative eccentricity, direction), side by side.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,11 +52,13 @@ impl Mirrored {
 const BEYOND: usize = 12;
 
 impl<const L: usize> Surface<L> {
-    /// Surfaces through `values`, direction fastest, then eccentricity.
+    /// Surfaces through `values`, direction fastest, then eccentricity. `bends` tells of each eccentricity how
+    /// what is negative when mirrored bends at the ends of the direction ([`End::Bent`]).
     pub fn through(
         counts: [usize; 2],
         values: &[[f64; L]],
         mirrored: [Mirrored; L],
+        bends: &[f64],
     ) -> Result<Self, DatabaseError> {
         let [eccentricities, directions] = counts;
         let wide = coefficients(directions);
@@ -63,12 +66,12 @@ impl<const L: usize> Surface<L> {
         let beyond = BEYOND.min(eccentricities - 1);
         let mut rows = vec![[0.0; L]; (beyond + eccentricities) * wide];
         for (lane, mirror) in mirrored.into_iter().enumerate() {
-            let end = if mirror == Mirrored::Same {
-                End::Even
-            } else {
-                End::NotAKnot
-            };
-            for e in 0..eccentricities {
+            for (e, bend) in bends.iter().enumerate().take(eccentricities) {
+                let end = match mirror {
+                    Mirrored::Same => End::Even,
+                    Mirrored::Negative => End::Bent(*bend),
+                    Mirrored::Angle => End::NotAKnot,
+                };
                 let nodes: Vec<f64> = values[e * directions..(e + 1) * directions]
                     .iter()
                     .map(|node| node[lane])
@@ -122,10 +125,15 @@ impl<const L: usize> Surface<L> {
         })
     }
 
-    /// Looks up a place counted in nodes: eccentricity, which goes on linearly beyond its last node,
-    /// and direction.
+    /// Looks up a place counted in nodes: eccentricity, which goes on beyond its last node, and
+    /// direction.
+    #[inline]
     pub fn look(&self, eccentricity: f64, direction: f64) -> Looked<L> {
-        let along = weights(eccentricity, self.counts[0]);
+        let mut along = weights(eccentricity, self.counts[0]);
+        let beyond = eccentricity - (self.counts[0] - 1) as f64;
+        if beyond > 0.0 {
+            go_on(&mut along, beyond);
+        }
         let around = weights(direction, self.counts[1]);
         let wide = self.counts[1] + 2;
         let mut found = Looked {
@@ -133,7 +141,6 @@ impl<const L: usize> Surface<L> {
             by_eccentricity: [0.0; L],
             by_direction: [0.0; L],
         };
-        let beyond = eccentricity - (self.counts[0] - 1) as f64;
         for row in 0..4 {
             let from = (along.first + row) * wide + around.first;
             let four = &self.coefficients[from..from + 4];
@@ -145,13 +152,115 @@ impl<const L: usize> Surface<L> {
                     slope[lane] += around.slope[k] * c[lane];
                 }
             }
-            let weight = along.value[row] + beyond.max(0.0) * along.slope[row];
             for lane in 0..L {
-                found.value[lane] += weight * value[lane];
-                found.by_direction[lane] += weight * slope[lane];
+                found.value[lane] += along.value[row] * value[lane];
+                found.by_direction[lane] += along.value[row] * slope[lane];
                 found.by_eccentricity[lane] += along.slope[row] * value[lane];
             }
         }
         found
+    }
+
+    /// Values at a node of the direction and their derivatives by the place along the eccentricity, both in
+    /// the centre.
+    fn rise_at_centre(&self, direction: f64) -> [f64; L] {
+        self.look(0.0, direction).by_eccentricity
+    }
+}
+
+/// Weights beyond the last node, where value, slope and bend go on: the bend falls to its e-th part
+/// in a node, so that the slope tends to a limit.
+#[cold]
+fn go_on(weights: &mut Weights, beyond: f64) {
+    let left = (-beyond).exp();
+    // Integrals of what is left of the bend.
+    let (bent, risen) = (1.0 - left, beyond - (1.0 - left));
+    // Bend at the last node.
+    let bend = [0.0, 1.0, -2.0, 1.0];
+    for (k, bend) in bend.into_iter().enumerate() {
+        weights.value[k] += beyond * weights.slope[k] + risen * bend;
+        weights.slope[k] += bent * bend;
+    }
+}
+
+/// Makes a surface of forces smooth in the centre.
+///
+/// To first order in the eccentricity a smooth film gains `cos(angle)` times a number where mirroring it leaves
+/// the value, and `sin(angle)` times one where it turns the sign: that is a plane over the journal's position.
+/// A spline rises by that up to its own error, which leaves a cone with a kink in the centre. Within the first
+/// nodes around it the difference is added, with a weight that rises from 0 by 1 per node and ends smoothly:
+/// ```text
+/// x (1 - x^2)^3,   x the place along the eccentricity
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Centre {
+    /// Coefficients of the spline's rise over the direction.
+    rises: Vec<[f64; 2]>,
+    /// Rises of the plane, for `cos` and for `sin`.
+    plane: [f64; 2],
+}
+
+impl Centre {
+    /// For surfaces of which the first is the same when mirrored, the second the negative.
+    pub fn of(surface: &Surface<2>) -> Self {
+        let directions = surface.counts[1];
+        let wide = directions + 2;
+        let row = |row: usize| &surface.coefficients[row * wide..(row + 1) * wide];
+        // Slope of the spline over the first node.
+        let rises = row(0)
+            .iter()
+            .zip(row(2))
+            .map(|(before, behind)| [0, 1].map(|lane| 0.5 * (behind[lane] - before[lane])))
+            .collect();
+        let (mut sums, mut squares) = ([0.0; 2], [0.0; 2]);
+        for node in 0..directions {
+            let place = 2.0 * node as f64 / (directions - 1) as f64 - 1.0;
+            let (sin, cos) = Direction::angle(0.0, place).sin_cos();
+            let rise = surface.rise_at_centre(node as f64);
+            for (lane, share) in [cos, sin].into_iter().enumerate() {
+                sums[lane] += share * rise[lane];
+                squares[lane] += share * share;
+            }
+        }
+        Self {
+            rises,
+            plane: [sums[0] / squares[0], sums[1] / squares[1]],
+        }
+    }
+
+    /// What is to be added at places below 1 along the eccentricity, the arguments as in [`Surface::look`]. The
+    /// angle is the one that the direction has in the centre, for which plane and rise belong together.
+    #[cold]
+    pub fn look(&self, eccentricity: f64, direction: f64) -> Looked<2> {
+        let around = weights(direction, self.rises.len() - 2);
+        let square = eccentricity * eccentricity;
+        let rest = 1.0 - square;
+        let weight = eccentricity * rest * rest * rest;
+        let weight_slope = rest * rest * (1.0 - 7.0 * square);
+        // t = tan(pi/4 - angle/2), and its derivative by the place.
+        let per_place = 2.0 * 1.0_f64.asinh() / (self.rises.len() - 3) as f64;
+        let t = (per_place * direction - 1.0_f64.asinh()).sinh();
+        let t_slope = per_place * (1.0 + t * t).sqrt();
+        let per_square = 1.0 / (1.0 + t * t);
+        let (cos, sin) = (2.0 * t * per_square, (1.0 - t * t) * per_square);
+        let turn = -2.0 * t_slope * per_square;
+        let mut added = Looked {
+            value: [0.0; 2],
+            by_eccentricity: [0.0; 2],
+            by_direction: [0.0; 2],
+        };
+        for (lane, [share, turned]) in [[cos, -sin], [sin, cos]].into_iter().enumerate() {
+            let (mut rise, mut slope) = (0.0, 0.0);
+            for k in 0..4 {
+                let c = self.rises[around.first + k][lane];
+                rise += around.value[k] * c;
+                slope += around.slope[k] * c;
+            }
+            let missing = self.plane[lane] * share - rise;
+            added.value[lane] = weight * missing;
+            added.by_eccentricity[lane] = weight_slope * missing;
+            added.by_direction[lane] = weight * (self.plane[lane] * turned * turn - slope);
+        }
+        added
     }
 }

@@ -10,7 +10,7 @@
 
 use crate::axis::{Axis, Spacing};
 use crate::contents::{Contents, Value};
-use crate::direction::{Direction, from_logarithms, to_logarithms};
+use crate::direction::{Direction, Position, from_logarithms, to_logarithms};
 use crate::error::DatabaseError;
 use crate::recipe::Recipe;
 use crate::surface::{Mirrored, Surface};
@@ -142,14 +142,19 @@ impl Table {
             });
         }
         let counts = [eccentricities, directions];
+        let per_node = 2.0 / (directions - 1).max(1) as f64;
+        let bends: Vec<f64> = (0..eccentricities)
+            .map(|e| per_node * Position::new(axes.eccentricity.value(e)).bend())
+            .collect();
+        let mirrored = [Mirrored::Same, Mirrored::Negative];
         let forces = logarithms.chunks_exact(per_width);
         let shown = figures.chunks_exact(per_width);
         Ok(Self {
             forces: forces
-                .map(|slice| Surface::through(counts, slice, [Mirrored::Same, Mirrored::Negative]))
+                .map(|slice| Surface::through(counts, slice, mirrored, &bends))
                 .collect::<Result<_, _>>()?,
             figures: shown
-                .map(|slice| Surface::through(counts, slice, SHOWN))
+                .map(|slice| Surface::through(counts, slice, SHOWN, &bends))
                 .collect::<Result<_, _>>()?,
             recipe,
             axes,

@@ -7,14 +7,15 @@
 //! dF/de = -S D [(w + q J w) (L_eps e^/c - L_theta J e/|e|^2)^T + J w (q_eps e^/c - q_theta J e/|e|^2)^T]
 //! ```
 //! which is homogeneous of degree 1 in w by its form, loses energy everywhere since D > 0, and has exact
-//! derivatives. L and m are splines, twice differentiable; beyond the last eccentricity both go on
-//! linearly in atanh(eps), that is F by a power of the gap. At eps = 0 the film only resists w.
+//! derivatives. L and m are splines, twice differentiable but in the centre, where they are once; beyond the
+//! last eccentricity both tend to straight lines over atanh(eps), that is F to a power of the gap. At eps = 0
+//! the film only resists w.
 //! Limits: those of the table; full-width shear, see [`PlainFilm`].
 
 use crate::axis::Placing;
-use crate::direction::Direction;
+use crate::direction::{Direction, Position};
 use crate::error::DatabaseError;
-use crate::surface::Surface;
+use crate::surface::{Centre, Surface};
 use crate::table::Table;
 use sommerfeld_film::closed_form::PlainFilm;
 use sommerfeld_film::{
@@ -31,7 +32,9 @@ pub struct TableFilm {
     eccentricity: Placing,
     direction: Placing,
     forces: Surface<2>,
+    centre: Centre,
     figures: Surface<4>,
+    per_clearance: f64,
     /// Force of a film of unit dissipation at unit velocity, with its sign, N s/m.
     scale: f64,
 }
@@ -58,9 +61,11 @@ impl TableFilm {
         let slenderness = film.radius / film.clearance;
         Ok(Self {
             scale: -0.5 * film.viscosity * film.width * slenderness.powi(3),
+            per_clearance: 1.0 / film.clearance,
             film,
             eccentricity: table.axes().eccentricity.placing(),
             direction: table.axes().direction.placing(),
+            centre: Centre::of(&forces),
             forces,
             figures,
             table,
@@ -74,6 +79,7 @@ impl TableFilm {
     }
 
     /// Position, with a direction where there is none, and effective velocity.
+    #[inline]
     fn position_and_motion(&self, state: &JournalState) -> ([f64; 2], [f64; 2]) {
         let motion = PlainFilm::effective_velocity(state);
         let mut position = state.position;
@@ -90,34 +96,26 @@ impl TableFilm {
     }
 
     /// Force and its derivatives by position, at fixed effective velocity, and by effective velocity.
+    #[inline]
     fn forces(&self, state: &JournalState) -> ([f64; 2], [[f64; 2]; 2], [[f64; 2]; 2]) {
         let (position, motion) = self.position_and_motion(state);
         let distance = length(position);
         let per_distance = 1.0 / distance;
         let unit = position.map(|e| e * per_distance);
-        let per_clearance = 1.0 / self.film.clearance;
-        let eps = distance * per_clearance;
+        let eps = distance * self.per_clearance;
         let speed = length(motion);
         // A film at rest answers as if its gap began to close.
         let way = if speed > 0.0 {
-            motion.map(|w| w / speed)
+            let per_speed = 1.0 / speed;
+            motion.map(|w| w * per_speed)
         } else {
             unit
         };
         let along = way[0] * unit[0] + way[1] * unit[1];
         let across = unit[0] * way[1] - unit[1] * way[0];
-        let side = if across < 0.0 { -1.0 } else { 1.0 };
-        let direction = Direction::new(eps, along, across);
-        let (place_e, slope_e) = self.eccentricity.place(eps);
-        let (place_d, slope_d) = self.direction.place(direction.place);
-        let found = self.forces.look(place_e, place_d);
-        let turned_slope = slope_d * direction.by_angle;
-        let moved_slope = slope_d * direction.by_eccentricity;
-        let by_angle = found.by_direction.map(|slope| slope * turned_slope);
-        let by_eps: [f64; 2] = std::array::from_fn(|k| {
-            found.by_eccentricity[k] * slope_e + found.by_direction[k] * moved_slope
-        });
-        let [dissipation, turn] = found.value;
+        let side = 1.0_f64.copysign(across);
+        let seen = self.look(eps, along, across.abs());
+        let [dissipation, turn] = seen.value;
         let growth = turn.exp();
         let shrink = 1.0 / growth;
         let (sinh, cosh) = (0.5 * (growth - shrink), 0.5 * (growth + shrink));
@@ -129,30 +127,68 @@ impl TableFilm {
         let answer: [f64; 2] = std::array::from_fn(|k| way[k] + q * turned[k]);
         let slope =
             |l: f64, m: f64| -> [f64; 2] { std::array::from_fn(|k| answer[k] * l + turned[k] * m) };
-        let per_turn = slope(side * by_angle[0], cosh * by_angle[1]);
-        let per_eps = slope(by_eps[0], side * cosh * by_eps[1]);
+        let per_turn = slope(side * seen.by_angle[0], cosh * seen.by_angle[1]);
+        let per_eps = slope(
+            seen.by_eccentricity[0],
+            side * cosh * seen.by_eccentricity[1],
+        );
         let mut by_velocity = [[0.0; 2]; 2];
         let mut by_position = [[0.0; 2]; 2];
         let identity = [[1.0, -q], [q, 1.0]];
+        let force = scale * speed;
+        let (of_eps, of_turn) = (force * self.per_clearance, force * per_distance);
         for row in 0..2 {
             for column in 0..2 {
                 by_velocity[row][column] =
                     scale * (identity[row][column] + per_turn[row] * turned[column]);
-                by_position[row][column] = scale
-                    * speed
-                    * (per_eps[row] * unit[column] * per_clearance
-                        - per_turn[row] * beside[column] * per_distance);
+                by_position[row][column] =
+                    of_eps * per_eps[row] * unit[column] - of_turn * per_turn[row] * beside[column];
             }
         }
-        (
-            answer.map(|share| scale * speed * share),
-            by_position,
-            by_velocity,
-        )
+        (answer.map(|share| force * share), by_position, by_velocity)
+    }
+
+    /// Logarithms of the force at a relative eccentricity, for a unit velocity along the line of centres and
+    /// across it, the latter not negative.
+    #[inline]
+    fn look(&self, eps: f64, along: f64, across: f64) -> Logarithms {
+        let position = Position::new(eps);
+        let direction = Direction::of_unit(&position, along, across);
+        let place_e = self.eccentricity.of_coordinate(position.atanh);
+        let place_d = self.direction.of_coordinate(direction.place);
+        let slope_e = self.eccentricity.per_coordinate() * position.atanh_slope;
+        let slope_d = self.direction.per_coordinate();
+        let mut found = self.forces.look(place_e, place_d);
+        if place_e < 1.0 {
+            let added = self.centre.look(place_e, place_d);
+            for lane in 0..2 {
+                found.value[lane] += added.value[lane];
+                found.by_eccentricity[lane] += added.by_eccentricity[lane];
+                found.by_direction[lane] += added.by_direction[lane];
+            }
+        }
+        let turned_slope = slope_d * direction.by_angle;
+        let moved_slope = slope_d * direction.by_eccentricity;
+        Logarithms {
+            value: found.value,
+            by_angle: std::array::from_fn(|k| found.by_direction[k] * turned_slope),
+            by_eccentricity: std::array::from_fn(|k| {
+                found.by_eccentricity[k] * slope_e + found.by_direction[k] * moved_slope
+            }),
+        }
     }
 }
 
+/// L and m with their derivatives by the angle of w and by relative eccentricity.
+#[derive(Debug, Clone, Copy)]
+struct Logarithms {
+    value: [f64; 2],
+    by_angle: [f64; 2],
+    by_eccentricity: [f64; 2],
+}
+
 /// Without the care of `hypot` for numbers whose squares leave the range: journals have none.
+#[inline]
 fn length([x, y]: [f64; 2]) -> f64 {
     (x * x + y * y).sqrt()
 }

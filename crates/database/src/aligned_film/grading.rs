@@ -44,10 +44,12 @@ impl Grading {
             } else {
                 0.5 * (low + high)
             };
-            if (next - phi).abs() <= 1e-15 * phi {
+            let moved = (next - phi).abs();
+            phi = next;
+            // The error left is of the order of the square of the last step.
+            if moved <= 1e-10 * phi {
                 break;
             }
-            phi = next;
         }
         phi.copysign(s)
     }

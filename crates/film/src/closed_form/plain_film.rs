@@ -84,13 +84,14 @@ impl PlainFilm {
     /// Smallest gap, m; negative where the surfaces overlap.
     #[must_use]
     pub fn minimum_gap(&self, state: &JournalState) -> f64 {
-        self.clearance - state.eccentricity()
+        self.clearance - distance(state)
     }
 
     /// Refuses states these films cannot have.
     ///
     /// # Errors
     /// [`FilmError`] for values that are not finite, tilt, and a closed gap.
+    #[inline]
     pub fn check(&self, state: &JournalState) -> Result<(), FilmError> {
         let values = [
             ("position", state.position[0] + state.position[1]),
@@ -116,6 +117,7 @@ impl PlainFilm {
 
     /// Velocity of the journal centre relative to the oil that both surfaces drag along, m/s: wedge
     /// and squeeze together, `velocity - mean speed x eccentricity`.
+    #[inline]
     #[must_use]
     pub fn effective_velocity(state: &JournalState) -> [f64; 2] {
         let speed = state.mean_speed();
@@ -127,6 +129,7 @@ impl PlainFilm {
 
     /// Completes a force and its tangents by position (at fixed effective velocity) and by effective
     /// velocity to the film's answer, and remembers it for the summary.
+    #[inline]
     pub fn answer(
         &mut self,
         state: &JournalState,
@@ -155,8 +158,9 @@ impl PlainFilm {
         }
     }
 
+    #[inline]
     fn reaction(&self, state: &JournalState, force: [f64; 2]) -> Reaction {
-        let eps = state.eccentricity() / self.clearance;
+        let eps = distance(state) / self.clearance;
         let root = ((1.0 - eps) * (1.0 + eps)).sqrt();
         let relative_speed = state.journal_speed - state.shell_speed;
         let shear = TAU * self.viscosity * self.radius.powi(3) * self.width * relative_speed
@@ -210,6 +214,13 @@ impl PlainFilm {
             ..FilmSummary::default()
         }
     }
+}
+
+/// Distance from the shell centre, m, without the care of `hypot` for numbers whose squares leave the range.
+#[inline]
+fn distance(state: &JournalState) -> f64 {
+    let [x, y] = state.position;
+    (x * x + y * y).sqrt()
 }
 
 /// z component of the cross product.
