@@ -50,6 +50,7 @@ fn tilted() -> &'static Arc<SuperpositionTable> {
                 eccentricities: [0.15, 0.45],
                 eccentricity_nodes: 5,
                 samples: 10,
+                target: 0.5,
                 tilt_nodes: [11, 9],
                 centre_nodes: [0, 0],
                 ..whole
@@ -101,7 +102,7 @@ fn centred() -> &'static Arc<SuperpositionTable> {
             tilt_nodes: [5, 5],
             largest_shares: [0.4, 0.4],
             centre_nodes: [7, 14],
-            grid: [64, 20],
+            grid: [64, 16],
             samples: 0,
             ..SuperpositionRecipe::tilted(2.0)
         })
@@ -117,7 +118,7 @@ fn aligned() -> &'static Arc<SuperpositionTable> {
     static TABLE: OnceLock<Arc<SuperpositionTable>> = OnceLock::new();
     TABLE.get_or_init(|| {
         build(&SuperpositionRecipe {
-            samples: 10,
+            samples: 40,
             ..SuperpositionRecipe::aligned(2.0)
         })
     })
@@ -509,6 +510,7 @@ fn stopped_and_resumed_it_is_the_same() {
         largest_shares: [0.4, 0.4],
         grid: [48, 16],
         samples: 3,
+        target: 0.5,
         ..SuperpositionRecipe::tilted(1.5)
     };
     let directory = tempfile::tempdir().unwrap();
