@@ -372,8 +372,7 @@ fn extrapolated(runs: [([usize; 2], DimensionlessIntegrals); 3]) -> [Dimensionle
 type Solved = (DimensionlessIntegrals, Outcome, usize);
 
 fn solve_on(film: &DimensionlessFilm, cells: [usize; 2]) -> Result<Solved, FilmError> {
-    let solver =
-        FilmSolver::following(&film.bearing(), &film.lubricant(), cells, film.grading())?;
+    let solver = FilmSolver::following(&film.bearing(), &film.lubricant(), cells, film.grading())?;
     solve_with(film, solver)
 }
 
@@ -428,7 +427,11 @@ mod tests {
             tilt_delta: 1e-9,
             ..base
         };
-        for (film, other, bar) in [(base, base, 1e-3), (tilted, tilted, 1e-3), (base, nearly, 1e-7)] {
+        for (film, other, bar) in [
+            (base, base, 1e-3),
+            (tilted, tilted, 1e-3),
+            (base, nearly, 1e-7),
+        ] {
             let found = solve_graded(&film, [96, 32]).map(|solution| solution.integrals);
             let expected = match bar < 1e-6 {
                 true => solve_graded(&other, [96, 32]),

@@ -54,12 +54,17 @@ impl SuperpositionTable {
         };
         let states = samples(&recipe, &self.axes);
         let mut errors = vec![f64::NAN; states.len()];
-        self.measure(&states, &mut errors, &mut |done, _| {
-            match progress(done, states.len()) {
+        self.measure(
+            &states,
+            &mut errors,
+            &mut |done, _| match progress(done, states.len()) {
                 true => Ok(()),
-                false => Err(DatabaseError::Interrupted { done, total: states.len() }),
-            }
-        })?;
+                false => Err(DatabaseError::Interrupted {
+                    done,
+                    total: states.len(),
+                }),
+            },
+        )?;
         Ok(self.accuracy_of(&states, &errors))
     }
 
@@ -89,8 +94,12 @@ impl SuperpositionTable {
     /// Errors put in order.
     pub(super) fn accuracy_of(&self, samples: &[Sample], errors: &[f64]) -> [Accuracy; 3] {
         Drive::ALL.map(|drive| {
-            let of_drive = samples.iter().zip(errors).filter(|(sample, _)| sample.drive == drive);
-            let mut sorted: Vec<(&Sample, f64)> = of_drive.map(|(sample, error)| (sample, *error)).collect();
+            let of_drive = samples
+                .iter()
+                .zip(errors)
+                .filter(|(sample, _)| sample.drive == drive);
+            let mut sorted: Vec<(&Sample, f64)> =
+                of_drive.map(|(sample, error)| (sample, *error)).collect();
             sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
             let of_share = |share: f64| {
                 let rank = (share * sorted.len() as f64).ceil() as usize;
@@ -206,4 +215,3 @@ impl SplitMix {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
-

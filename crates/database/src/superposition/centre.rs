@@ -155,15 +155,29 @@ impl Centre {
     /// Of forces and moments: value, derivatives by A, x and y; and the peak.
     fn curves(&self, size: f64, x: f64, y: f64) -> ([[f64; 4]; 4], f64) {
         let reach = Reach::new(&self.placing, self.shells, size);
-        let polynomials = [Polynomials::at(x, self.degree + 1), Polynomials::at(y, self.degree + 1)];
+        let polynomials = [
+            Polynomials::at(x, self.degree + 1),
+            Polynomials::at(y, self.degree + 1),
+        ];
         let rows: [&[f64]; 4] = std::array::from_fn(|k| {
             &self.coefficients[(reach.first + k) * self.width..][..self.width]
         });
         let [even, odd] = [0, 1].map(|parity| count_of_terms(self.degree, parity));
         let part = |from: usize, to: usize| rows.map(|row| &row[from..to]);
         let forces = pairs(part(0, 2 * even), &reach, self.degree, 0, &polynomials);
-        let moments = pairs(part(2 * even, 2 * (even + odd)), &reach, self.degree, 1, &polynomials);
-        let peak = single(part(2 * (even + odd), self.width), &reach, self.degree, &polynomials);
+        let moments = pairs(
+            part(2 * even, 2 * (even + odd)),
+            &reach,
+            self.degree,
+            1,
+            &polynomials,
+        );
+        let peak = single(
+            part(2 * (even + odd), self.width),
+            &reach,
+            self.degree,
+            &polynomials,
+        );
         ([forces[0], forces[1], moments[0], moments[1]], peak)
     }
 }
@@ -406,9 +420,8 @@ mod tests {
             for (k, expected) in expected.into_iter().enumerate().take(4) {
                 let factor = if k < 2 { eps.max(1e-9) } else { 1.0 };
                 assert!((found.values[k] - expected / factor).abs() < 1e-7);
-                let at = |e: f64, a: f64, c: f64| {
-                    lookup(eps + e, [along + a, across + c]).values[k]
-                };
+                let at =
+                    |e: f64, a: f64, c: f64| lookup(eps + e, [along + a, across + c]).values[k];
                 let differences = [
                     (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
                     (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),

@@ -45,7 +45,11 @@ impl Shape {
     pub(super) fn within(&self, finer: Self, place: [usize; 3]) -> Option<[usize; 3]> {
         let mut own = place;
         for (axis, node) in own.iter_mut().enumerate() {
-            let step = if finer.counts[axis] == self.counts[axis] { 1 } else { 2 };
+            let step = if finer.counts[axis] == self.counts[axis] {
+                1
+            } else {
+                2
+            };
             if *node % step != 0 {
                 return None;
             }
@@ -277,10 +281,12 @@ impl Fitted {
         let (mut value, mut slopes) = ([0.0; LANES], [[0.0; LANES]; 3]);
         let [_, n_share, n_transverse] = self.extents;
         for i in 0..e.count {
-            let (mut plane, mut by_share, mut by_transverse) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            let (mut plane, mut by_share, mut by_transverse) =
+                ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
             for j in 0..u.count {
                 let row = ((e.first + i) * n_share + u.first + j) * n_transverse + d.first;
-                let (nodes, _) = self.coefficients[row * LANES..(row + d.count) * LANES].as_chunks::<LANES>();
+                let (nodes, _) =
+                    self.coefficients[row * LANES..(row + d.count) * LANES].as_chunks::<LANES>();
                 let (mut line, mut rise) = ([0.0; LANES], [0.0; LANES]);
                 for ((node, value), slope) in nodes.iter().zip(&d.value).zip(&d.slope) {
                     add(&mut line, *value, node);

@@ -65,7 +65,7 @@ impl SuperpositionRecipe {
             smallest_eccentricity: 0.01,
             samples: 1000,
             seed: 1,
-            target: 1e-2,
+            target: 2e-2,
             most_films: 60_000,
         }
     }
@@ -81,7 +81,7 @@ impl SuperpositionRecipe {
             centre_nodes: [0, 0],
             smallest_gap: 0.01,
             smallest_eccentricity: 0.02,
-            samples: 400,
+            samples: 200,
             target: 1e-3,
             ..Self::tilted(d_over_b)
         }
@@ -135,12 +135,20 @@ impl SuperpositionRecipe {
                 allowed,
             ));
         }
-        if !self.grid.iter().all(|cells| *cells > 0 && cells.is_multiple_of(8)) {
+        if !self
+            .grid
+            .iter()
+            .all(|cells| *cells > 0 && cells.is_multiple_of(8))
+        {
             let value = format!("{:?}", self.grid);
             return Err(refused("grid", value, "multiples of 8"));
         }
         if !(self.target.is_finite() && self.target > 0.0) {
-            return Err(refused("target", format!("{}", self.target), "a positive number"));
+            return Err(refused(
+                "target",
+                format!("{}", self.target),
+                "a positive number",
+            ));
         }
         let [first, last] = self.eccentricities;
         let tilt = |key, which: usize| {
@@ -172,7 +180,12 @@ impl SuperpositionRecipe {
     }
 
     /// The film of a drive at an eccentricity and tilts `[along, across]`.
-    pub(super) fn film(&self, drive: Drive, eps: f64, [along, across]: [f64; 2]) -> DimensionlessFilm {
+    pub(super) fn film(
+        &self,
+        drive: Drive,
+        eps: f64,
+        [along, across]: [f64; 2],
+    ) -> DimensionlessFilm {
         let [wedge, squeeze] = drive.factors();
         DimensionlessFilm {
             d_over_b: self.d_over_b,

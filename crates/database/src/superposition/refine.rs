@@ -36,7 +36,9 @@ impl SuperpositionTable {
             return Ok(None);
         }
         for finer in self.ways(samples, errors)? {
-            if count_of_films(&finer)? <= self.recipe.most_films && finer.grid[0] * finer.grid[1] <= MOST_CELLS {
+            if count_of_films(&finer)? <= self.recipe.most_films
+                && finer.grid[0] * finer.grid[1] <= MOST_CELLS
+            {
                 return Ok(Some(finer));
             }
         }
@@ -49,7 +51,9 @@ impl SuperpositionTable {
         samples: &[Sample],
         errors: &[f64],
     ) -> Result<Vec<SuperpositionRecipe>, DatabaseError> {
-        let mut worst: Vec<(Sample, f64)> = (samples.iter().copied()).zip(errors.iter().copied()).collect();
+        let mut worst: Vec<(Sample, f64)> = (samples.iter().copied())
+            .zip(errors.iter().copied())
+            .collect();
         worst.sort_by(|a, b| b.1.total_cmp(&a.1));
         let kept = SAFE * self.recipe.target;
         worst.retain(|(_, error)| *error > kept);
@@ -111,7 +115,8 @@ impl SuperpositionTable {
                 _ => finer.tilt_nodes[axis - 1] = 2 * finer.tilt_nodes[axis - 1] - 1,
             }
             // Of few nodes nothing is known but that they are few.
-            let error = match self.axes[axis].count() >= FEWEST && self.axes[axis].count() % 2 == 1 {
+            let error = match self.axes[axis].count() >= FEWEST && self.axes[axis].count() % 2 == 1
+            {
                 true => self.error_without(axis)?,
                 false => f64::INFINITY,
             };

@@ -335,7 +335,9 @@ impl Kept {
             films: (films.values.chunks_exact(FIGURES))
                 .map(|figures| std::array::from_fn(|k| figures[k]))
                 .collect(),
-            errors: errors.map(|errors| errors.values.clone()).unwrap_or_default(),
+            errors: errors
+                .map(|errors| errors.values.clone())
+                .unwrap_or_default(),
         };
         Some((level, solved))
     }
@@ -360,8 +362,19 @@ impl Kept {
         let first = &self.recipe;
         let [u, d] = first.tilt_nodes;
         let [shells, degree] = first.centre_nodes;
-        let asked = [first.eccentricity_nodes, u, d, shells, degree, first.grid[0], first.grid[1]];
-        contents.attribute(ASKED, Value::Numbers(asked.map(|count| count as f64).to_vec()));
+        let asked = [
+            first.eccentricity_nodes,
+            u,
+            d,
+            shells,
+            degree,
+            first.grid[0],
+            first.grid[1],
+        ];
+        contents.attribute(
+            ASKED,
+            Value::Numbers(asked.map(|count| count as f64).to_vec()),
+        );
         let films = solved.films.iter().flatten().copied().collect();
         let extents = [solved.films.len(), FIGURES];
         contents.array("solved", "1", "Films by task", &extents, films);
