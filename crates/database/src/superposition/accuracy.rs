@@ -10,6 +10,9 @@ use crate::axis::Axis;
 use crate::error::DatabaseError;
 use rayon::prelude::*;
 
+/// Hears how many errors are known, and the errors; its own error ends the measurement.
+type Seen<'a> = dyn FnMut(usize, &[f64]) -> Result<(), DatabaseError> + 'a;
+
 /// A random state is solved on more cells: of all films it counts as so many.
 pub(super) const WEIGHT: usize = 2;
 
@@ -74,7 +77,7 @@ impl SuperpositionTable {
         &self,
         samples: &[Sample],
         errors: &mut [f64],
-        seen: &mut dyn FnMut(usize, &[f64]) -> Result<(), DatabaseError>,
+        seen: &mut Seen<'_>,
     ) -> Result<(), DatabaseError> {
         let open: Vec<usize> = (0..samples.len()).filter(|k| errors[*k].is_nan()).collect();
         let mut done = samples.len() - open.len();

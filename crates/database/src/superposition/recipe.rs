@@ -79,6 +79,8 @@ impl SuperpositionRecipe {
             largest_shares: [0.0, 0.0],
             tilt_nodes: [1, 1],
             centre_nodes: [0, 0],
+            // Half of an aligned film is solved, and nothing is steep at its ends.
+            grid: [192, 32],
             smallest_gap: 0.01,
             smallest_eccentricity: 0.02,
             samples: 200,
