@@ -363,7 +363,8 @@ pub fn look_up(stored: &StoredFilms, state: &State) -> Result<LookedUp, String> 
                     .to_owned(),
             );
         }
-        if !(gap_of(state) > 0.0) {
+        let gap = gap_of(state);
+        if gap.is_nan() || gap <= 0.0 {
             return Err(format!(
                 "the tilts gamma {gamma} and delta {delta} close the gap at an edge at the relative \
                  eccentricity {}: alone, gamma lies within 1 and delta within {:.6}, together less",
