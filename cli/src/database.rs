@@ -2,11 +2,12 @@
 
 use crate::commands;
 use crate::exit::Exit;
+use crate::progress::{Progress, stop_flag};
 use crate::run::RunArguments;
 use clap::{Args, Subcommand};
 use sommerfeld_study::database_files::{
-    self, CombinedCheck, FileCheck, Scales, State, SuperposedCheck, answer_rows, dimensional_rows,
-    look_up, look_up_table,
+    self, CombinedCheck, FileCheck, Scales, State, SuperposedCheck, answer_rows, beyond,
+    dimensional_rows, look_up, look_up_table,
 };
 use sommerfeld_study::film_tables::StoredFilms;
 use sommerfeld_study::input::units::{Dimension, parse};
@@ -26,7 +27,7 @@ pub enum DatabaseCommand {
     /// Print what a database says of a state, or of every row of a table
     Lookup(Box<LookupArguments>),
     /// Hold a database against films solved for states drawn anew; exit 1 where one errs by more than the
-    /// target that the database was built for
+    /// target that the database was built for. So many for each drive of a superposition
     Check {
         /// The database
         file: PathBuf,
@@ -45,7 +46,10 @@ pub enum DatabaseCommand {
     after_help = "Without dimensions, forces are over eta |w| R^3 B / (2 c^3) and pressures over \
                         eta |w| R^2 / c^3, w the velocity of the journal centre relative to the oil that \
                         the surfaces drag along: at direction 0 the gap closes, at -90 the journal runs \
-                        as in steady rotation, at 180 the gap opens. With a bearing (--diameter, --width, \
+                        as in steady rotation, at 180 the gap opens. Moments are over the same force with an \
+                        arm of half the width. The relative tilts of a database of tilted journals are those of the \
+                        dimensionless film: gamma in the plane of the narrowest gap, from -1 to 1, delta across it. With a \
+                        bearing (--diameter, --width, \
                         --clearance, --viscosity, --speed) the direction follows from speed and \
                         eccentricity rate, and the answer is in SI too."
 )]
@@ -63,6 +67,22 @@ pub struct LookupArguments {
     /// Angle of the motion from the line of centres, degrees
     #[arg(long, value_name = "DEG", allow_negative_numbers = true, conflicts_with = "diameter", required_unless_present_any = ["states", "diameter"])]
     direction: Option<f64>,
+    /// Tilt in the plane of the narrowest gap over its largest value, of a database of tilted journals
+    #[arg(
+        long,
+        value_name = "G",
+        allow_negative_numbers = true,
+        default_value_t = 0.0
+    )]
+    tilt_gamma: f64,
+    /// Tilt across that plane as it stands in the gap: over the radial clearance, at the edge
+    #[arg(
+        long,
+        value_name = "D",
+        allow_negative_numbers = true,
+        default_value_t = 0.0
+    )]
+    tilt_delta: f64,
     /// Width over diameter, where the database holds several
     #[arg(long, value_name = "B/D", conflicts_with = "diameter")]
     width_ratio: Option<f64>,
@@ -84,8 +104,9 @@ pub struct LookupArguments {
     /// Rate of the relative eccentricity, such as "20 1/s"
     #[arg(long, requires = "diameter", allow_hyphen_values = true)]
     eccentricity_rate: Option<String>,
-    /// CSV of states, eccentricity[-],direction[deg](,width_ratio[-]): answers for each row
-    #[arg(long, value_name = "CSV", conflicts_with_all = ["eccentricity", "direction", "diameter", "width_ratio"])]
+    /// CSV of states, eccentricity[-],direction[deg](,width_ratio[-],tilt_gamma[-],tilt_delta[-]): answers
+    /// for each row
+    #[arg(long, value_name = "CSV", conflicts_with_all = ["eccentricity", "direction", "diameter", "width_ratio", "tilt_gamma", "tilt_delta"])]
     states: Option<PathBuf>,
     /// Where the table of answers is written [default: standard output]
     #[arg(long, value_name = "CSV", requires = "states")]
@@ -126,12 +147,20 @@ fn lookup(arguments: &LookupArguments) -> Result<Exit, String> {
     }
     let eccentricity = arguments.eccentricity.unwrap_or(f64::NAN);
     let scales = scales(arguments)?;
+    let tilts = [arguments.tilt_gamma, arguments.tilt_delta];
+    if !tilts.iter().all(|tilt| tilt.is_finite()) {
+        return Err("a tilt is no number".to_owned());
+    }
     let state = match &scales {
-        Some(scales) => scales.state(eccentricity),
+        Some(scales) => State {
+            tilts,
+            ..scales.state(eccentricity)
+        },
         None => State {
             width_ratio: width_ratio(arguments, &stored)?,
             eccentricity,
             angle: arguments.direction.unwrap_or(f64::NAN).to_radians(),
+            tilts,
         },
     };
     if !state.angle.is_finite() {
@@ -146,17 +175,19 @@ fn lookup(arguments: &LookupArguments) -> Result<Exit, String> {
         "direction",
         state.angle.to_degrees()
     );
+    if stored.is_tilted() {
+        text += &format!(
+            "  {:<30} {}\n  {:<30} {}\n",
+            "tilt_gamma", state.tilts[0], "tilt_delta", state.tilts[1]
+        );
+    }
     text += &rows(&answer_rows(&found));
     if let Some(scales) = scales {
         text += "in SI\n";
         text += &rows(&dimensional_rows(&found, &scales, eccentricity));
     }
-    if eccentricity > stored.facts().last_eccentricity {
-        eprintln!(
-            "warning: beyond the last eccentricity of the database, {}, its film is continued \
-             smoothly, without a stated error",
-            stored.facts().last_eccentricity
-        );
+    if let Some(warning) = beyond(&stored, &state) {
+        eprintln!("warning: {warning}");
     }
     Ok(commands::print(&text))
 }
@@ -253,8 +284,18 @@ fn check(file: &Path, samples: u32, seed: Option<u64>) -> Exit {
         let since = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
         since.map_or(0, |since| since.as_nanos() as u64)
     });
-    let found = match database_files::check(file, samples as usize, seed) {
-        Ok(found) => found,
+    let mut shown = Progress::new(stop_flag());
+    let mut is_begun = false;
+    let found = database_files::check_with(file, samples as usize, seed, &mut |event| {
+        is_begun = true;
+        shown.show(&event)
+    });
+    if is_begun {
+        shown.finish();
+    }
+    let found = match found {
+        Ok(Some(found)) => found,
+        Ok(None) => return Exit::Interrupted,
         Err(error) => return refused(&error.to_string()),
     };
     let verdict = if found.is_kept() { "kept" } else { "exceeded" };
@@ -298,20 +339,29 @@ fn superposed_check(drives: &[SuperposedCheck], seed: u64, verdict: &str) -> Str
     let rows = drives.iter().map(|drive| {
         let (found, stated) = (&drive.found, &drive.stated);
         format!(
-            "  {} alone, {} states: largest {:.3e}, 99.9 % below {:.3e}, half below {:.3e}; stated in the \
-             file {:.3e} of {}\n",
+            "  {} alone, {} states: largest {:.3e} at eccentricity {:.4}, tilts along {:.4} and across {:.4}; \
+             99.9 % below {:.3e}, half below {:.3e}; stated in the file {:.3e} of {}\n",
             drive.drive.letter(),
             found.samples,
             found.largest,
+            found.worst[0],
+            found.worst[1],
+            found.worst[2],
             found.of_999,
             found.median,
             stated.largest,
             stated.samples,
         )
     });
+    let bound = drives.first().map_or(0.0, |drive| drive.bound);
+    let largest = drives.iter().map(|drive| drive.stated.largest);
+    let status = match largest.fold(0.0, f64::max) <= bound {
+        true => "converged",
+        false => "not-converged: its own samples err by more than it was built for",
+    };
     format!(
-        "stated errors {verdict}, seed {seed}; D wedge, V closing gap, W opening gap, each against its own \
-         film, not against their sum\n{}",
+        "bound {bound:.1e} {verdict}, seed {seed}\n  status of the file           {status}\n{}  D wedge, V \
+         closing gap, W opening gap: each of force and moment against its own film, not against their sum\n",
         rows.collect::<String>()
     )
 }

@@ -13,6 +13,9 @@ mod common;
 
 use common::{CONDITIONS, VISCOSITY, state, unit_bearing};
 use criterion::{Criterion, criterion_group, criterion_main};
+use sommerfeld_database::superposition::{
+    SuperpositionFilm, SuperpositionRecipe, SuperpositionTable,
+};
 use sommerfeld_database::{Recipe, TableFilm, generate};
 use sommerfeld_film::{Cavitation, FilmForce, JournalState, Step};
 use std::hint::black_box;
@@ -26,6 +29,41 @@ fn lookup(criterion: &mut Criterion) {
     let states: Vec<JournalState> = (0..1024).map(|k| state(&bearing, k, 0.999)).collect();
     let mut next = 0;
     criterion.bench_function("lookup with derivatives", |bencher| {
+        bencher.iter(|| {
+            next = (next + 1) % states.len();
+            film.linearise(black_box(&states[next]), Step::Steady, &CONDITIONS)
+                .unwrap()
+        });
+    });
+}
+
+/// A tilted journal of the paper's scheme (aim 3 us), where two tables of the wedge join: all of it is looked up. On
+/// coarse cells: the table has the size of a fine one.
+fn tilted_lookup(criterion: &mut Criterion) {
+    let bearing = unit_bearing(Cavitation::Reynolds, 0.5);
+    let recipe = SuperpositionRecipe {
+        grid: [32, 8],
+        samples: 0,
+        ..SuperpositionRecipe::tilted(2.0)
+    };
+    let table = SuperpositionTable::build(&recipe, None, &mut |_, _| true).unwrap();
+    let mut film = SuperpositionFilm::new(Arc::new(table), &bearing, VISCOSITY).unwrap();
+    let per_tilt = 0.5 * bearing.width / bearing.radial_clearance;
+    let states: Vec<JournalState> = (0..1024)
+        .map(|k| {
+            let eps = 0.3 + 0.1 * f64::from(k) / 1024.0;
+            let c = bearing.radial_clearance;
+            JournalState {
+                position: [0.8 * eps * c, 0.6 * eps * c],
+                tilt: [0.2 / per_tilt, -0.25 / per_tilt],
+                velocity: [10.0 * c, 20.0 * c],
+                journal_speed: 100.0,
+                ..JournalState::default()
+            }
+        })
+        .collect();
+    let mut next = 0;
+    criterion.bench_function("tilted lookup with derivatives", |bencher| {
         bencher.iter(|| {
             next = (next + 1) % states.len();
             film.linearise(black_box(&states[next]), Step::Steady, &CONDITIONS)
@@ -55,5 +93,5 @@ fn build(_: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, lookup, build);
+criterion_group!(benches, lookup, tilted_lookup, build);
 criterion_main!(benches);

@@ -8,7 +8,7 @@ use sommerfeld_database::superposition::{
 use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Elasticity, Ends, Feed, FilmForce, FilmShear, FilmSolver,
-    Finish, Inlet, JournalState, Shape, Step,
+    Finish, Inlet, JournalState, Outcome, Shape, Step,
 };
 use sommerfeld_oil::Lubricant;
 use std::path::PathBuf;
@@ -50,6 +50,7 @@ fn tilted() -> &'static Arc<SuperpositionTable> {
                 eccentricities: [0.15, 0.45],
                 eccentricity_nodes: 5,
                 samples: 10,
+                target: 0.5,
                 tilt_nodes: [11, 9],
                 centre_nodes: [0, 0],
                 ..whole
@@ -101,7 +102,7 @@ fn centred() -> &'static Arc<SuperpositionTable> {
             tilt_nodes: [5, 5],
             largest_shares: [0.4, 0.4],
             centre_nodes: [7, 14],
-            grid: [64, 20],
+            grid: [64, 16],
             samples: 0,
             ..SuperpositionRecipe::tilted(2.0)
         })
@@ -117,7 +118,7 @@ fn aligned() -> &'static Arc<SuperpositionTable> {
     static TABLE: OnceLock<Arc<SuperpositionTable>> = OnceLock::new();
     TABLE.get_or_init(|| {
         build(&SuperpositionRecipe {
-            samples: 10,
+            samples: 40,
             ..SuperpositionRecipe::aligned(2.0)
         })
     })
@@ -509,6 +510,7 @@ fn stopped_and_resumed_it_is_the_same() {
         largest_shares: [0.4, 0.4],
         grid: [48, 16],
         samples: 3,
+        target: 0.5,
         ..SuperpositionRecipe::tilted(1.5)
     };
     let directory = tempfile::tempdir().unwrap();
@@ -548,6 +550,62 @@ fn stopped_and_resumed_it_is_the_same() {
             assert!((turned - sign * expected).abs() < 1e-9);
         }
     }
+}
+
+/// Nodes are added until the target is met, also by a generation that was stopped meanwhile; one that may not add
+/// enough says so, in its file too.
+#[test]
+fn a_target_is_met_or_its_miss_is_a_status() {
+    let recipe = SuperpositionRecipe {
+        eccentricities: [0.1, 0.9],
+        eccentricity_nodes: 9,
+        grid: [96, 24],
+        smallest_gap: 0.1,
+        smallest_eccentricity: 0.1,
+        samples: 20,
+        target: 1.2e-3,
+        ..SuperpositionRecipe::aligned(2.0)
+    };
+    let whole = build(&recipe);
+    assert_eq!(whole.outcome(), Outcome::Converged);
+    assert!(whole.largest_error() <= recipe.target);
+    let (found, asked) = (whole.recipe(), &recipe);
+    let is_finer = found.eccentricity_nodes > asked.eccentricity_nodes || found.grid > asked.grid;
+    assert!(is_finer, "{found:?}");
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("paper.h5");
+    // After every batch.
+    let mut resumed = None;
+    for _ in 0..60 {
+        match SuperpositionTable::build(&recipe, Some(&path), &mut |_, _| false) {
+            Ok(table) => {
+                resumed = Some(table);
+                break;
+            }
+            Err(error) => assert!(
+                matches!(error, DatabaseError::Interrupted { .. }),
+                "{error}"
+            ),
+        }
+    }
+    let resumed = resumed.unwrap();
+    assert_eq!(resumed.recipe(), whole.recipe());
+    assert_eq!(resumed.accuracy(), whole.accuracy());
+    let poor = SuperpositionRecipe {
+        most_films: 30,
+        target: 1e-6,
+        ..recipe
+    };
+    let poor = SuperpositionTable::build(&poor, Some(&path), &mut |_, _| true).unwrap();
+    assert_eq!(poor.outcome(), Outcome::NotConverged);
+    let read = SuperpositionTable::read(&path).unwrap();
+    assert_eq!(read.outcome(), Outcome::NotConverged);
+    // Other states err about as much.
+    let other = whole.check(20, 1, &mut |_, _| true).unwrap();
+    let largest = other.iter().map(|a| a.largest).fold(0.0, f64::max);
+    assert!(largest > 0.0 && largest <= recipe.target && largest != whole.largest_error());
+    let film = SuperpositionFilm::new(Arc::new(read), &bearing(2.0), VISCOSITY).unwrap();
+    assert!(film.statement().contains("NOT CONVERGED"));
 }
 
 #[test]

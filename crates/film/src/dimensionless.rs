@@ -12,11 +12,13 @@
 use crate::bearing::{Bearing, Cavitation, Ends, FilmShear, Inlet};
 use crate::force::{Conditions, FilmError, FilmForce, FilmSummary, Outcome, Reaction, Step};
 use crate::journal_state::JournalState;
+use crate::mirror::{Extent, half_of};
 use crate::richardson::{
     Estimate, Kind, Sample, cell_size, estimate, grid_sequence, vector_errors,
 };
 use crate::shape::Shape;
 use crate::solver::FilmSolver;
+use crate::tilted_grid::tilted_grid;
 use serde::{Deserialize, Serialize};
 use sommerfeld_oil::Lubricant;
 
@@ -186,12 +188,54 @@ pub fn solve_dimensionless(
     film: &DimensionlessFilm,
     [n_around, n_axial]: [usize; 2],
 ) -> Result<DimensionlessSolution, FilmError> {
-    let (fine, outcome, fine_iterations) = solve_on(film, [n_around, n_axial])?;
-    let (coarse, coarse_outcome, coarse_iterations) = solve_on(film, [n_around, n_axial / 2])?;
+    let fine = solve_on(film, [n_around, n_axial])?;
+    let coarse = solve_on(film, [n_around, n_axial / 2])?;
     let ratio = (n_axial as f64 / (n_axial / 2) as f64).powi(2);
+    Ok(extrapolated_from(fine, coarse, ratio))
+}
+
+/// Solves `film` on `n_around` x `n_axial` cells that suit its tilt, see [`tilted_grid`], and on half as many each
+/// way, and extrapolates (Richardson). Of an aligned film half is solved. Where the gap is narrow at an edge it errs
+/// by a third of what [`solve_dimensionless`] does, in less than half the time. Numbers of cells are multiples of 4.
+///
+/// # Errors
+/// [`FilmError::Contact`] where the gap closes, [`FilmError::Unsupported`] for other numbers of cells.
+pub fn solve_graded(
+    film: &DimensionlessFilm,
+    [n_around, n_axial]: [usize; 2],
+) -> Result<DimensionlessSolution, FilmError> {
+    if n_around == 0 || n_axial == 0 || n_around % 4 + n_axial % 4 > 0 {
+        return Err(FilmError::Unsupported {
+            reason: "a graded film needs numbers of cells that are multiples of 4",
+        });
+    }
+    let solve = |cells| {
+        let (bearing, oil, state) = (film.bearing(), film.lubricant(), film.state());
+        let grid = tilted_grid(&bearing, &state, cells);
+        let half = match state.tilt == [0.0; 2] {
+            true => half_of(&bearing, &grid),
+            false => None,
+        };
+        let solver = match half {
+            Some(half) => FilmSolver::following_on(&bearing, &oil, half, Extent::Half)?,
+            None => FilmSolver::following_on(&bearing, &oil, grid, Extent::Whole)?,
+        };
+        solve_with(film, solver)
+    };
+    let fine = solve([n_around, n_axial])?;
+    let coarse = solve([n_around / 2, n_axial / 2])?;
+    Ok(extrapolated_from(fine, coarse, 4.0))
+}
+
+/// The limit of two solutions whose errors are to each other as 1 to `ratio`.
+fn extrapolated_from(
+    (fine, outcome, fine_iterations): Solved,
+    (coarse, coarse_outcome, coarse_iterations): Solved,
+    ratio: f64,
+) -> DimensionlessSolution {
     let shift = |fine: f64, coarse: f64| (fine - coarse) / (ratio - 1.0);
     let moved = combine(&fine, &coarse, shift);
-    Ok(DimensionlessSolution {
+    DimensionlessSolution {
         integrals: combine(&fine, &moved, |value, by| value + by),
         moved,
         outcome: if coarse_outcome == Outcome::Converged {
@@ -200,7 +244,7 @@ pub fn solve_dimensionless(
             coarse_outcome
         },
         iterations: fine_iterations + coarse_iterations,
-    })
+    }
 }
 
 /// Most cells that [`refine_dimensionless`] tries: 512 x 128.
@@ -324,16 +368,19 @@ fn extrapolated(runs: [([usize; 2], DimensionlessIntegrals); 3]) -> [Dimensionle
     [gathered(|e| e.extrapolated), error]
 }
 
-fn solve_on(
-    film: &DimensionlessFilm,
-    cells: [usize; 2],
-) -> Result<(DimensionlessIntegrals, Outcome, usize), FilmError> {
+/// Integrals, how the solution ended, film updates.
+type Solved = (DimensionlessIntegrals, Outcome, usize);
+
+fn solve_on(film: &DimensionlessFilm, cells: [usize; 2]) -> Result<Solved, FilmError> {
+    let solver = FilmSolver::following(&film.bearing(), &film.lubricant(), cells, film.grading())?;
+    solve_with(film, solver)
+}
+
+fn solve_with(film: &DimensionlessFilm, mut solver: FilmSolver) -> Result<Solved, FilmError> {
     let conditions = Conditions {
         temperature: 373.15, // the viscosity is constant
         feed_pressures: None,
     };
-    let mut solver =
-        FilmSolver::following(&film.bearing(), &film.lubricant(), cells, film.grading())?;
     let answer = solver.react(&film.state(), Step::Steady, &conditions)?;
     let summary = solver.summary();
     let integrals = film.integrals(&answer.reaction, &summary);
@@ -357,6 +404,49 @@ fn combine(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Graded cells agree with the others as far as those can tell, half a film with a whole one.
+    #[test]
+    fn graded_cells_find_the_same_film() {
+        let base = DimensionlessFilm {
+            d_over_b: 2.0,
+            relative_eccentricity: 0.5,
+            tilt_gamma: 0.0,
+            tilt_delta: 0.0,
+            wedge: 1.0,
+            squeeze: 0.0,
+            cavitation: Cavitation::Reynolds,
+            inlet: Inlet::Cyclic,
+        };
+        let tilted = DimensionlessFilm {
+            tilt_gamma: 0.4,
+            tilt_delta: 0.3,
+            ..base
+        };
+        let nearly = DimensionlessFilm {
+            tilt_delta: 1e-9,
+            ..base
+        };
+        for (film, other, bar) in [
+            (base, base, 1e-3),
+            (tilted, tilted, 1e-3),
+            (base, nearly, 1e-7),
+        ] {
+            let found = solve_graded(&film, [96, 32]).map(|solution| solution.integrals);
+            let expected = match bar < 1e-6 {
+                true => solve_graded(&other, [96, 32]),
+                false => solve_dimensionless(&other, [128, 48]),
+            };
+            let (Ok(a), Ok(b)) = (found, expected.map(|solution| solution.integrals)) else {
+                unreachable!("these films have solutions");
+            };
+            let force = b.p_cos.hypot(b.p_sin);
+            assert!((a.p_cos - b.p_cos).hypot(a.p_sin - b.p_sin) < bar * force);
+            assert!((a.p_z_cos - b.p_z_cos).hypot(a.p_z_sin - b.p_z_sin) < bar * force);
+            assert!((a.peak - b.peak).abs() < (5.0 * bar).min(0.5) * b.peak);
+        }
+        assert!(solve_graded(&base, [90, 32]).is_err());
+    }
 
     #[test]
     fn the_gap_of_a_tilted_film_closes_at_an_edge() {

@@ -49,6 +49,7 @@ pub mod solver;
 pub mod spectral;
 pub mod supply;
 pub mod surfaces;
+pub mod tilted_grid;
 pub mod vogelpohl;
 mod worn_heights;
 

@@ -112,13 +112,21 @@ impl FilmSolver {
         grading: f64,
     ) -> Result<Self, FilmError> {
         let grid = Grid::following(bearing, n_around, n_axial, grading);
-        Self::on_grid(
-            bearing,
-            lubricant,
-            grid,
-            Frame::LineOfCentres,
-            Extent::Whole,
-        )
+        Self::following_on(bearing, lubricant, grid, Extent::Whole)
+    }
+
+    /// The same on any grid from angle -pi to pi, over all of the width or, for a journal that stays aligned,
+    /// over the half that [`half_of`] makes of it.
+    ///
+    /// # Errors
+    /// As [`FilmSolver::following`].
+    pub fn following_on(
+        bearing: &Bearing,
+        lubricant: &Lubricant,
+        grid: Grid,
+        extent: Extent,
+    ) -> Result<Self, FilmError> {
+        Self::on_grid(bearing, lubricant, grid, Frame::LineOfCentres, extent)
     }
 
     fn on_grid(

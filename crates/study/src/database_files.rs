@@ -1,10 +1,12 @@
 //! What a user asks of a database file: what is stored in it, what it says of states, how far it errs.
 
 use crate::film_tables::{FilmTable, LookedUp, StoredFilms};
+use crate::progress::ProgressEvent;
 use sommerfeld_database::contents::{Contents, Value};
-use sommerfeld_database::superposition::{Accuracy, Drive, SuperpositionTable};
+use sommerfeld_database::superposition::{Accuracy, Drive, SuperpositionTable, tilt_box};
 use sommerfeld_database::{CheckReport, DatabaseError};
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// Everything that is stored in a database, for a reader: attributes, then datasets.
@@ -83,11 +85,13 @@ pub struct SuperposedCheck {
     pub found: Accuracy,
     /// What the file states.
     pub stated: Accuracy,
+    /// Error that the database was built for, which no state may exceed.
+    pub bound: f64,
 }
 
 impl FileCheck {
     /// Wedge and squeeze together: no state errs by more than the database was built for, and no film makes
-    /// power. Apart: none errs by more than the file states.
+    /// power. Apart: none errs by more than that either.
     #[must_use]
     pub fn is_kept(&self) -> bool {
         match self {
@@ -96,7 +100,7 @@ impl FileCheck {
             }
             Self::Superposition(drives) => drives
                 .iter()
-                .all(|drive| drive.found.largest <= drive.stated.largest),
+                .all(|drive| drive.found.largest <= drive.bound),
         }
     }
 }
@@ -107,16 +111,36 @@ impl FileCheck {
 /// # Errors
 /// [`DatabaseError`] where the file cannot be used or a film cannot be solved.
 pub fn check(path: &Path, samples: usize, seed: u64) -> Result<FileCheck, DatabaseError> {
+    let found = check_with(path, samples, seed, &mut |_| ControlFlow::Continue(()))?;
+    found.ok_or(DatabaseError::Interrupted {
+        done: 0,
+        total: samples,
+    })
+}
+
+/// The same, telling how far it is where that takes long: a database of the scheme superposition. `None` where
+/// `progress` ended it.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_with(
+    path: &Path,
+    samples: usize,
+    seed: u64,
+    progress: &mut dyn FnMut(ProgressEvent) -> ControlFlow<()>,
+) -> Result<Option<FileCheck>, DatabaseError> {
     let stored = StoredFilms::load(&path.to_string_lossy(), path)?;
     match &stored.table {
-        FilmTable::Combined(table) => Ok(FileCheck::Combined(CombinedCheck {
+        FilmTable::Combined(table) => Ok(Some(FileCheck::Combined(CombinedCheck {
             report: sommerfeld_database::check(table, samples, seed)?,
             bound: table.recipe().target,
             stated: table.errors().maximum,
-        })),
-        FilmTable::Superposition(table) => {
-            Ok(FileCheck::Superposition(check_apart(table, samples, seed)?))
-        }
+        }))),
+        FilmTable::Superposition(table) => match check_apart(table, samples, seed, progress) {
+            Ok(drives) => Ok(Some(FileCheck::Superposition(drives))),
+            Err(DatabaseError::Interrupted { .. }) => Ok(None),
+            Err(error) => Err(error),
+        },
     }
 }
 
@@ -124,8 +148,13 @@ fn check_apart(
     table: &SuperpositionTable,
     samples: usize,
     seed: u64,
+    progress: &mut dyn FnMut(ProgressEvent) -> ControlFlow<()>,
 ) -> Result<Vec<SuperposedCheck>, DatabaseError> {
-    let found = table.check(samples, seed, &mut |_, _| true)?;
+    let found = table.check(samples, seed, &mut |done, total| {
+        let label = format!("{done} of {total} films");
+        let share = done as f64 / total.max(1) as f64;
+        progress(ProgressEvent::new(label, share)).is_continue()
+    })?;
     let both = found.into_iter().zip(*table.accuracy());
     let drives = Drive::ALL.into_iter().zip(both);
     Ok(drives
@@ -133,6 +162,7 @@ fn check_apart(
             drive,
             found,
             stated,
+            bound: table.recipe().target,
         })
         .collect())
 }
@@ -163,6 +193,8 @@ pub struct State {
     pub eccentricity: f64,
     /// Angle of the effective velocity from the line of centres, rad.
     pub angle: f64,
+    /// Relative tilts gamma and delta, see [`StoredFilms::look_tilted`].
+    pub tilts: [f64; 2],
 }
 
 impl Scales {
@@ -184,6 +216,7 @@ impl Scales {
             width_ratio: self.width / self.diameter,
             eccentricity,
             angle: across.atan2(along),
+            tilts: [0.0; 2],
         }
     }
 }
@@ -202,8 +235,8 @@ pub fn answer_rows(found: &LookedUp) -> Vec<(&'static str, f64, &'static str)> {
         ),
         ("force_along_by_direction", found.by_angle[0], "1/rad"),
         ("force_across_by_direction", found.by_angle[1], "1/rad"),
-        ("moment_along", 0.0, "-"),
-        ("moment_across", 0.0, "-"),
+        ("moment_along", found.moment[0], "-"),
+        ("moment_across", found.moment[1], "-"),
         ("peak_pressure", found.peak_pressure, "-"),
         ("peak_angle", found.peak_angle.to_degrees(), "deg"),
         ("side_flow_each_end", found.side_flow, "-"),
@@ -223,6 +256,7 @@ pub fn dimensional_rows(
     let (radius, c) = (0.5 * scales.diameter, scales.radial_clearance);
     let per_velocity = scales.viscosity * radius.powi(3) * scales.width / (2.0 * c.powi(3));
     let force = per_velocity * speed;
+    let moment = 0.5 * scales.width * force;
     let pressure = scales.viscosity * speed * radius.powi(2) / c.powi(3);
     // Per component of the velocity, from size and angle of w.
     let unit = if speed > 0.0 {
@@ -241,8 +275,8 @@ pub fn dimensional_rows(
         ("damping_along_across", damping(0, 1), "N s/m"),
         ("damping_across_along", damping(1, 0), "N s/m"),
         ("damping_across_across", damping(1, 1), "N s/m"),
-        ("moment_along", 0.0, "N m"),
-        ("moment_across", 0.0, "N m"),
+        ("moment_along", moment * found.moment[0], "N m"),
+        ("moment_across", moment * found.moment[1], "N m"),
         ("peak_pressure", pressure * found.peak_pressure, "Pa"),
         (
             "side_flow_each_end",
@@ -253,7 +287,7 @@ pub fn dimensional_rows(
 }
 
 /// Looks up every row of a table of states (`eccentricity[-],direction[deg]`, and `width_ratio[-]` where
-/// the database holds several) and returns the table with what it says.
+/// the database holds several; `tilt_gamma[-]` and `tilt_delta[-]` of tilted journals) and returns the table with what it says.
 ///
 /// # Errors
 /// What is wrong with the table, in words with its line.
@@ -269,6 +303,7 @@ pub fn look_up_table(stored: &StoredFilms, text: &str) -> Result<String, String>
         |name: &str| column(name).ok_or_else(|| format!("line 1: the column {name} is missing"));
     let (eccentricity, direction) = (needed("eccentricity[-]")?, needed("direction[deg]")?);
     let ratio = column("width_ratio[-]");
+    let tilts = [column("tilt_gamma[-]"), column("tilt_delta[-]")];
     if ratio.is_none() && narrow != wide {
         return Err(
             "line 1: the column width_ratio[-] is missing: the database holds several".to_owned(),
@@ -287,6 +322,10 @@ pub fn look_up_table(stored: &StoredFilms, text: &str) -> Result<String, String>
             width_ratio: ratio.map_or(Ok(narrow), number)?,
             eccentricity: number(eccentricity)?,
             angle: number(direction)?.to_radians(),
+            tilts: [
+                tilts[0].map_or(Ok(0.0), number)?,
+                tilts[1].map_or(Ok(0.0), number)?,
+            ],
         };
         let found = look_up(stored, &state).map_err(|error| format!("line {line}: {error}"))?;
         let rows = answer_rows(&found);
@@ -316,7 +355,61 @@ pub fn look_up(stored: &StoredFilms, state: &State) -> Result<LookedUp, String> 
             state.eccentricity
         ));
     }
+    let [gamma, delta] = state.tilts;
+    if state.tilts != [0.0; 2] {
+        if !stored.is_tilted() {
+            return Err(
+                "the database holds aligned journals: one with journal = \"tilted\" holds tilts"
+                    .to_owned(),
+            );
+        }
+        let gap = gap_of(state);
+        if gap.is_nan() || gap <= 0.0 {
+            return Err(format!(
+                "the tilts gamma {gamma} and delta {delta} close the gap at an edge at the relative \
+                 eccentricity {}: alone, gamma lies within 1 and delta within {:.6}, together less",
+                state.eccentricity,
+                (1.0 - state.eccentricity * state.eccentricity).sqrt()
+            ));
+        }
+    }
     stored
-        .look(state.width_ratio, state.eccentricity, state.angle)
+        .look_tilted(
+            state.width_ratio,
+            state.eccentricity,
+            state.angle,
+            state.tilts,
+        )
         .map_err(|error| error.to_string())
+}
+
+/// Smallest relative film thickness of a state.
+fn gap_of(state: &State) -> f64 {
+    let [gamma, delta] = state.tilts;
+    tilt_box::smallest_gap(
+        state.eccentricity,
+        gamma * (1.0 - state.eccentricity),
+        delta,
+    )
+}
+
+/// That a state lies where the database has no stated error.
+#[must_use]
+pub fn beyond(stored: &StoredFilms, state: &State) -> Option<String> {
+    let facts = stored.facts();
+    let gap = gap_of(state);
+    if state.eccentricity > facts.last_eccentricity {
+        return Some(format!(
+            "beyond the last eccentricity of the database, {}, its film is continued smoothly, without a \
+             stated error",
+            facts.last_eccentricity
+        ));
+    }
+    (facts.is_tilted && gap < facts.smallest_gap).then(|| {
+        format!(
+            "the smallest relative film thickness, {gap:.4}, is below {}, down to which the database states \
+             its error",
+            facts.smallest_gap
+        )
+    })
 }

@@ -7,7 +7,7 @@ use sommerfeld_database::superposition::{SuperpositionFilm, SuperpositionTable};
 use sommerfeld_database::{DatabaseError, Table, TableFilm};
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Elasticity, Ends, FilmForce, FilmShear, Finish, Inlet,
-    JournalState, Shape, Step,
+    JournalState, Outcome, Shape, Step,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -75,8 +75,8 @@ pub struct DatabaseFacts {
     pub width_ratios: [f64; 2],
     /// Last relative eccentricity with nodes.
     pub last_eccentricity: f64,
-    /// Error of the force over its size that it was built to keep; of a superposition, that its samples
-    /// found, of wedge and squeeze each.
+    /// Error of the force over its size that it was built to keep; of a superposition, of force and moment of
+    /// wedge and squeeze each.
     pub bound: f64,
     /// Largest error of the force over its size that the samples of the build found.
     pub stated_error: f64,
@@ -84,6 +84,14 @@ pub struct DatabaseFacts {
     pub samples: usize,
     /// Nodes of the table.
     pub points: usize,
+    /// Whether those samples err by no more than [`Self::bound`].
+    pub status: Outcome,
+    /// Its journals tilt.
+    pub is_tilted: bool,
+    /// Smallest relative film thickness that the stated error was found at.
+    pub smallest_gap: f64,
+    /// Where the film starts.
+    pub inlet: String,
 }
 
 impl DatabaseFacts {
@@ -97,11 +105,16 @@ impl DatabaseFacts {
             format!("B/D {narrow:.4} to {wide:.4}")
         };
         format!(
-            "database {} ({}, closure {}, {held}), stated error {:.1e} of the force{}, {:.1e} found at {} \
+            "database {} ({}, closure {}, {held}{}), {}stated error {:.1e} of the force{}, {:.1e} found at {} \
              states",
             self.file,
             self.scheme.name(),
             self.closure,
+            if self.is_tilted { ", tilted" } else { "" },
+            match self.status {
+                Outcome::Converged => String::new(),
+                _ => format!("{} to its target: ", self.status_name().to_uppercase()),
+            },
             self.bound,
             match self.scheme {
                 Scheme::Combined => "",
@@ -110,6 +123,21 @@ impl DatabaseFacts {
             self.stated_error,
             self.samples
         )
+    }
+
+    /// How its journals stand, as in studies.
+    #[must_use]
+    pub const fn journal(&self) -> &'static str {
+        if self.is_tilted { "tilted" } else { "aligned" }
+    }
+
+    /// Its status as in summaries.
+    #[must_use]
+    pub const fn status_name(&self) -> &'static str {
+        match self.status {
+            Outcome::Converged => "converged",
+            _ => "not-converged",
+        }
     }
 }
 
@@ -174,6 +202,13 @@ impl StoredFilms {
                     stated_error: table.errors().maximum,
                     samples: recipe.samples,
                     points: table.nodes().len(),
+                    status: match table.errors().maximum <= recipe.target {
+                        true => Outcome::Converged,
+                        false => Outcome::NotConverged,
+                    },
+                    is_tilted: false,
+                    smallest_gap: 1.0 - recipe.last_eccentricity,
+                    inlet: "cyclic".to_owned(),
                 }
             }
             FilmTable::Superposition(table) => {
@@ -182,20 +217,35 @@ impl StoredFilms {
                 let nodes = recipe.eccentricity_nodes
                     * recipe.tilt_nodes.iter().product::<usize>()
                     * accuracy.len();
-                let worst = accuracy.iter().map(|one| one.largest);
-                let worst = worst.fold(0.0, f64::max);
                 DatabaseFacts {
                     file: self.name.clone(),
                     scheme: self.scheme(),
                     closure: closure_name(recipe.cavitation).to_owned(),
                     width_ratios: [1.0 / recipe.d_over_b; 2],
                     last_eccentricity: recipe.eccentricities[1],
-                    bound: worst,
-                    stated_error: worst,
+                    bound: recipe.target,
+                    stated_error: table.largest_error(),
                     samples: accuracy.iter().map(|one| one.samples).sum(),
                     points: nodes,
+                    status: table.outcome(),
+                    is_tilted: table.is_tilted(),
+                    smallest_gap: recipe.smallest_gap,
+                    inlet: match recipe.wedge_inlet {
+                        Inlet::Cyclic => "cyclic",
+                        Inlet::MaxFilmLine { .. } => "max-film-line",
+                    }
+                    .to_owned(),
                 }
             }
+        }
+    }
+
+    /// Its journals tilt.
+    #[must_use]
+    pub fn is_tilted(&self) -> bool {
+        match &self.table {
+            FilmTable::Combined(_) => false,
+            FilmTable::Superposition(table) => table.is_tilted(),
         }
     }
 
@@ -274,6 +324,8 @@ pub struct LookedUp {
     pub side_flow: f64,
     /// Share of the bearing area under pressure.
     pub full_film_share: f64,
+    /// Moment about and across the line of centres over that of the force's scale with an arm of half the width.
+    pub moment: [f64; 2],
 }
 
 /// A bearing of radius 1 m in which states without dimensions are looked up.
@@ -293,6 +345,21 @@ impl StoredFilms {
         width_ratio: f64,
         eccentricity: f64,
         angle: f64,
+    ) -> Result<LookedUp, DatabaseError> {
+        self.look_tilted(width_ratio, eccentricity, angle, [0.0; 2])
+    }
+
+    /// The same of a journal with relative tilts: gamma, in the plane of the narrowest gap over its largest value,
+    /// and delta, across it, as it stands in the gap.
+    ///
+    /// # Errors
+    /// As [`StoredFilms::look`], and for tilts that the database does not hold or that close the gap.
+    pub fn look_tilted(
+        &self,
+        width_ratio: f64,
+        eccentricity: f64,
+        angle: f64,
+        [gamma, delta]: [f64; 2],
     ) -> Result<LookedUp, DatabaseError> {
         let bearing = Bearing {
             diameter: 2.0,
@@ -314,6 +381,8 @@ impl StoredFilms {
         let (sin, cos) = angle.sin_cos();
         let state = JournalState {
             position: [eccentricity * CLEARANCE, 0.0],
+            tilt: [delta, -gamma * (1.0 - eccentricity)]
+                .map(|tilt| 2.0 * CLEARANCE * tilt / bearing.width),
             velocity: [cos, sin],
             ..JournalState::default()
         };
@@ -333,6 +402,10 @@ impl StoredFilms {
             peak_angle: summary.peak_film_pressure.angle,
             side_flow: summary.side_flow[0] / bearing.width,
             full_film_share: summary.full_film_share,
+            moment: seen
+                .reaction
+                .film_moment
+                .map(|moment| 2.0 * moment / (scale * bearing.width)),
         })
     }
 }

@@ -59,8 +59,11 @@ impl DatabaseResults {
             figures.push((
                 "largest error",
                 format!(
-                    "{:.2e} of {} samples, target {:.0e}",
-                    facts.stated_error, facts.samples, built.target
+                    "{:.2e} of {} samples, target {:.0e}, {}",
+                    facts.stated_error,
+                    facts.samples,
+                    built.target,
+                    facts.status_name()
                 ),
             ));
             if !built.fresh.is_empty() {

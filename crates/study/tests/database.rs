@@ -2,11 +2,12 @@
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 use serde_json::Value;
+use sommerfeld_database::superposition::{SuperpositionRecipe, SuperpositionTable};
 use sommerfeld_database::table::Axes;
 use sommerfeld_database::{Recipe, Table};
 use sommerfeld_study::database_files::{self, FileCheck};
 use sommerfeld_study::film_tables::{FilmTable, StoredFilms};
-use sommerfeld_study::input::study_from_text;
+use sommerfeld_study::input::{DatabasePlan, Subject, study_from_text};
 use sommerfeld_study::output::summary;
 use sommerfeld_study::report::render;
 use sommerfeld_study::results::{Body, Results};
@@ -248,6 +249,113 @@ fn of_several_files_the_one_that_holds_the_bearing_is_taken() {
     assert_eq!(both["force_n"], alone["force_n"]);
 }
 
+/// Films of tilted journals: built from a study, looked up with tilts, and a film model that tilts.
+#[test]
+fn tilted_journals_have_a_superposition_too() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = "schema = 1\nanalysis = \"database\"\n[database]\nscheme = \"superposition\"\n\
+        journal = \"tilted\"\nwidth_ratios = 0.4\ntarget = 0.05\nsamples = 8\nnodes = [5, 5, 5]\n\
+        smallest_gap = 0.3\nlast_eccentricity = 0.6\nmost_films = 2000\n[film]\ncavitation = \"reynolds\"\n";
+    let study = study_from_text("films.toml", text, directory.path()).unwrap();
+    let Subject::Database(plan) = &study.subject else {
+        panic!("another study");
+    };
+    let DatabasePlan::Superposition(recipe) = plan.as_ref() else {
+        panic!("another plan");
+    };
+    assert_eq!((recipe.eccentricity_nodes, recipe.tilt_nodes), (5, [5, 5]));
+    // On few cells: what is tried here is not how well it is solved.
+    let recipe = SuperpositionRecipe {
+        grid: [32, 8],
+        centre_nodes: [5, 4],
+        target: 0.9,
+        ..*recipe
+    };
+    let file = directory.path().join("table.h5");
+    SuperpositionTable::build(&recipe, Some(&file), &mut |_, _| true).unwrap();
+    let stored = StoredFilms::load("table.h5", &file).unwrap();
+    assert!(stored.facts().told().contains("tilted"));
+    let state = database_files::State {
+        width_ratio: 0.4,
+        eccentricity: 0.4,
+        angle: -1.5,
+        tilts: [0.3, -0.2],
+    };
+    let found = database_files::look_up(&stored, &state).unwrap();
+    assert!(
+        found.moment.iter().all(|moment| moment.abs() > 1e-3),
+        "{found:?}"
+    );
+    assert!(database_files::beyond(&stored, &state).is_none());
+    let far = database_files::State {
+        tilts: [0.6, 0.3],
+        ..state
+    };
+    assert!(
+        database_files::beyond(&stored, &far)
+            .unwrap()
+            .contains("below 0.3")
+    );
+    let closed = database_files::State {
+        tilts: [1.2, 0.0],
+        ..state
+    };
+    let error = database_files::look_up(&stored, &closed).unwrap_err();
+    assert!(error.contains("close the gap"), "{error}");
+    let rows = "eccentricity[-],direction[deg],tilt_gamma[-],tilt_delta[-]\n0.4,-90,0.3,-0.2\n";
+    assert!(database_files::look_up_table(&stored, rows).is_ok());
+    let aligned = StoredFilms::load("", &films().join("films/table.h5")).unwrap();
+    let error = database_files::look_up(&aligned, &state).unwrap_err();
+    assert!(error.contains("aligned"), "{error}");
+    // The film of a study tilts on it.
+    let film = "model = \"superposition\"\ndatabase = \"table.h5\"\n";
+    let duty = "[operation]\nspeed = \"2000 rpm\"\nrelative_eccentricity = 0.4\ntilt = [\"0.2 mrad\", \"0.1 mrad\"]\n";
+    let text = format!("schema = 1\nanalysis = \"film\"\n{BEARING}{OIL}[film]\n{film}{duty}");
+    let study = study_from_text("s.toml", &text, directory.path());
+    let study = study.unwrap_or_else(|errors| panic!("{errors}"));
+    let found = summary(&solve(&study, &mut |_| ControlFlow::Continue(())).unwrap());
+    assert_eq!(found["status"], "converged", "{}", found["messages"]);
+    assert_eq!(found["databases"][0]["journal"], "tilted");
+}
+
+/// What a study of a superposition says wrong is named.
+#[test]
+fn nonsense_of_a_superposition_is_named() {
+    let base = "schema = 1\nanalysis = \"database\"\n[film]\ncavitation = \"reynolds\"\n[database]\nwidth_ratios = 0.4\n";
+    for (keys, expected) in [
+        ("journal = \"tilted\"\n", "holds aligned journals"),
+        ("nodes = 25\n", "one of the scheme superposition"),
+        (
+            "scheme = \"superposition\"\nsmallest_gap = 0.1\n",
+            "last_eccentricity",
+        ),
+        (
+            "scheme = \"superposition\"\nnodes = [5, 5, 5]\n",
+            "one whole number",
+        ),
+        (
+            "scheme = \"superposition\"\njournal = \"tilted\"\nnodes = [5, 6, 5]\n",
+            "odd",
+        ),
+        (
+            "scheme = \"superposition\"\njournal = \"tilted\"\nnodes = [1, 5, 5]\n",
+            "nodes",
+        ),
+        (
+            "scheme = \"superposition\"\njournal = \"bent\"\n",
+            "aligned",
+        ),
+    ] {
+        let Err(errors) = study_from_text("films.toml", &format!("{base}{keys}"), films()) else {
+            panic!("accepted: {keys}");
+        };
+        assert!(
+            errors.to_string().contains(expected),
+            "{expected}\n{errors}"
+        );
+    }
+}
+
 /// A truncated file, one that is no database, one with a changed byte.
 #[test]
 fn a_file_that_is_not_whole_is_named() {
@@ -437,6 +545,29 @@ fn a_superposition_is_built_and_compared() {
     let FileCheck::Superposition(drives) = database_files::check(&file, 8, 5).unwrap() else {
         panic!("another table");
     };
+    // A target that the films it may have do not meet is a status, not a number alone.
+    let text = text
+        .replace("target = 1e-2", "target = 1e-5")
+        .replace("samples = 8", "samples = 8\nnodes = 5\nmost_films = 50");
+    let missed = tempfile::tempdir().unwrap();
+    let found = summary(&build(missed.path(), &text, 2).results);
+    assert_eq!(found["status"], "not-converged", "{}", found["messages"]);
+    assert_eq!(found["error_status"], "not-converged");
+    assert!(
+        found["messages"][0]
+            .as_str()
+            .unwrap()
+            .contains("most_films")
+    );
+    let poor = missed.path().join("films/table.h5");
+    assert!(
+        database_files::info(&poor)
+            .unwrap()
+            .contains("not-converged")
+    );
+    let told = StoredFilms::load("", &poor).unwrap().facts().told();
+    assert!(told.contains("NOT-CONVERGED"), "{told}");
+    assert!(!database_files::check(&poor, 8, 5).unwrap().is_kept());
     for drive in &drives {
         assert!(
             drive.found.samples == 8 && drive.found.largest < 1e-2,

@@ -337,14 +337,14 @@ fn is_finite(study: &Study) -> bool {
 fn is_finite_database(plan: &DatabasePlan) -> bool {
     match plan {
         DatabasePlan::Combined(recipe) => recipe.check().is_ok() && recipe.target.is_finite(),
-        DatabasePlan::Superposition { recipe, target } => {
+        DatabasePlan::Superposition(recipe) => {
             let [first, last] = recipe.eccentricities;
             recipe.d_over_b > 0.0
                 && recipe.d_over_b.is_finite()
                 && (0.0..1.0).contains(&first)
                 && (first..1.0).contains(&last)
-                && *target > 0.0
-                && target.is_finite()
+                && recipe.target > 0.0
+                && recipe.target.is_finite()
         }
     }
 }

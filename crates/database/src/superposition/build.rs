@@ -1,28 +1,29 @@
-//! Solves the films of all nodes, in parallel, and measures how far the splines between them err.
+//! Solves the films of all nodes, in parallel, and adds nodes and cells until the curves between them err less than
+//! asked.
 //!
 //! Films that mirror each other are solved once. With the axis turned round both tilts change their signs:
 //! forces stay, moments change theirs. With the sense of rotation turned round the transverse tilt does,
 //! which a squeeze does not feel: `Phi_2` and `Theta_2` change their signs.
 
+use super::accuracy::{WEIGHT, samples};
 use super::grid::Shape;
-use super::stored::Kept;
+use super::stored::{Kept, Solved};
 use super::{Accuracy, Drive, SuperpositionRecipe, SuperpositionTable, centre, tilt_box};
 use crate::axis::Axis;
 use crate::error::DatabaseError;
 use rayon::prelude::*;
 use sommerfeld_film::Outcome;
-use sommerfeld_film::dimensionless::{DimensionlessSolution, solve_dimensionless};
+use sommerfeld_film::dimensionless::{DimensionlessSolution, solve_graded};
 use std::path::Path;
 
 /// Of a node: `Phi_1, Phi_2, Theta_1, Theta_2`, the largest `Pi`, and how far extrapolation moved the
 /// first four, over force and moment.
 pub(super) const FIGURES: usize = 6;
-/// Of the random states of a generation.
-const FIRST_SEED: u64 = 0x5EED;
 /// Films between two reports of progress.
-const BATCH: usize = 64;
+pub(super) const BATCH: usize = 64;
 
-/// Films solved and films in all; `false` as the answer stops the generation.
+/// Films solved and films in all, those of random states, which have more cells, counted as two; `false` as the
+/// answer stops the generation. More in all than before: nodes are added.
 pub type Progress<'a> = dyn FnMut(usize, usize) -> bool + 'a;
 
 /// A film to solve.
@@ -34,9 +35,11 @@ enum Task {
 }
 
 impl SuperpositionTable {
-    /// Solves everything that `recipe` asks for. With a `path` the database is written there, and an
-    /// interrupted generation leaves what it has solved beside it, where the next one with the same recipe
-    /// takes it up. The result does not depend on threads or interruptions.
+    /// Solves everything that `recipe` asks for, and adds nodes and cells where the error is until its target is
+    /// met with some room or they are as many as a database may have; see [`SuperpositionTable::outcome`] and
+    /// what is left of the recipe in the table. With a `path` the database is written there, and an interrupted
+    /// generation leaves what it has solved beside it, where the next one with the same recipe takes it up. The
+    /// result does not depend on threads or interruptions.
     ///
     /// # Errors
     /// [`DatabaseError::Recipe`] where a value cannot be built for, [`DatabaseError::Interrupted`] where
@@ -47,37 +50,20 @@ impl SuperpositionTable {
         path: Option<&Path>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, DatabaseError> {
-        let axes = recipe.axes()?;
-        let shape = Shape::of(&axes);
-        let tasks = tasks(recipe, shape);
-        let samples = samples(recipe, &axes, FIRST_SEED);
-        let total = tasks.len() + samples.len();
+        recipe.axes()?;
         let mut kept = Kept::beside(path, recipe);
-        let mut solved = kept.read(tasks.len());
-        let open: Vec<usize> = (0..tasks.len())
-            .filter(|k| solved[*k][0].is_nan())
-            .collect();
-        let mut done = tasks.len() - open.len();
-        for batch in open.chunks(BATCH) {
-            let found: Result<Vec<_>, _> = (batch.par_iter())
-                .map(|k| solve(recipe, &axes, tasks[*k]))
-                .collect();
-            for (k, figures) in batch.iter().zip(found?) {
-                solved[*k] = figures;
+        let (mut level, mut solved) = kept.read();
+        let table = loop {
+            let table = Self::level(&level, &mut solved, &mut kept, progress)?;
+            let states = samples(&level, &table.axes);
+            match table.finer(&states, &solved.errors)? {
+                Some(finer) => {
+                    solved = table.taken_over(&finer)?;
+                    level = finer;
+                }
+                None => break table,
             }
-            done += batch.len();
-            let goes_on = progress(done, total);
-            kept.write(&solved, !goes_on || done == tasks.len())?;
-            if !goes_on {
-                return Err(DatabaseError::Interrupted { done, total });
-            }
-        }
-        let nodes = Drive::ALL.map(|drive| filled(drive, shape, &tasks, &solved));
-        let centre = tasks.iter().zip(&solved);
-        let centre = centre.filter(|(task, _)| matches!(task, Task::Centre(..)));
-        let centre = centre.map(|(_, figures)| *figures).collect();
-        let mut table = Self::of(*recipe, nodes, centre, [Accuracy::default(); 3])?;
-        table.measure(&samples, &mut |measured| progress(done + measured, total))?;
+        };
         if let Some(path) = path {
             table.write(path)?;
             kept.remove();
@@ -85,136 +71,84 @@ impl SuperpositionTable {
         Ok(table)
     }
 
-    /// Errors at other random states, `samples` of each drive, than those of the generation: another `seed`,
-    /// other states. The table stays as it is.
-    ///
-    /// # Errors
-    /// As [`SuperpositionTable::build`].
-    pub fn check(
-        &self,
-        samples_of_each: usize,
-        seed: u64,
+    /// The table of a recipe as it stands, its error measured. `solved` holds what is known of it.
+    fn level(
+        recipe: &SuperpositionRecipe,
+        solved: &mut Solved,
+        kept: &mut Kept,
         progress: &mut Progress<'_>,
-    ) -> Result<[Accuracy; 3], DatabaseError> {
-        let mut own = self.clone();
-        own.recipe.samples = samples_of_each;
-        let states = samples(&own.recipe, &self.axes, seed);
-        own.measure(&states, &mut |done| progress(done, states.len()))?;
-        Ok(own.accuracy)
-    }
-
-    /// Measures the errors at `samples` by direct solutions.
-    fn measure(
-        &mut self,
-        samples: &[Sample],
-        progress: &mut dyn FnMut(usize) -> bool,
-    ) -> Result<(), DatabaseError> {
-        let mut errors: [Vec<f64>; 3] = Default::default();
-        for (k, batch) in samples.chunks(BATCH).enumerate() {
-            let found: Result<Vec<_>, _> = batch.par_iter().map(|s| self.error_at(s)).collect();
-            for (sample, error) in batch.iter().zip(found?) {
-                errors[sample.drive as usize].push(error);
+    ) -> Result<Self, DatabaseError> {
+        let axes = recipe.axes()?;
+        let shape = Shape::of(&axes);
+        let tasks = tasks(recipe, shape);
+        let states = samples(recipe, &axes);
+        let total = tasks.len() + WEIGHT * states.len();
+        solved.fit(tasks.len(), states.len());
+        let open: Vec<usize> = (0..tasks.len())
+            .filter(|k| solved.films[*k][0].is_nan())
+            .collect();
+        let mut done = tasks.len() - open.len();
+        for batch in open.chunks(BATCH) {
+            let found: Result<Vec<_>, _> = (batch.par_iter())
+                .map(|k| solve(recipe, &axes, tasks[*k]))
+                .collect();
+            for (k, figures) in batch.iter().zip(found?) {
+                solved.films[*k] = figures;
             }
-            if !progress(k * BATCH + batch.len()) {
-                let (done, total) = (k * BATCH + batch.len(), samples.len());
+            done += batch.len();
+            let goes_on = progress(done, total);
+            kept.write(recipe, solved, !goes_on || done == tasks.len())?;
+            if !goes_on {
                 return Err(DatabaseError::Interrupted { done, total });
             }
         }
-        for (drive, mut errors) in Drive::ALL.into_iter().zip(errors) {
-            errors.sort_by(f64::total_cmp);
-            let count = errors.len();
-            let of_share = |share: f64| {
-                let rank = (share * count as f64).ceil() as usize;
-                errors
-                    .get(rank.clamp(1, count.max(1)) - 1)
-                    .copied()
-                    .unwrap_or_default()
-            };
-            self.accuracy[drive as usize] = Accuracy {
-                samples: count,
-                largest: of_share(1.0),
-                of_999: of_share(0.999),
-                median: of_share(0.5),
-                node_error: self.node_error(drive),
-            };
+        let nodes = Drive::ALL.map(|drive| filled(drive, shape, &tasks, &solved.films));
+        let centre = tasks.iter().zip(&solved.films);
+        let centre = centre.filter(|(task, _)| matches!(task, Task::Centre(..)));
+        let centre = centre.map(|(_, figures)| *figures).collect();
+        let mut table = Self::of(*recipe, nodes, centre, [Accuracy::default(); 3])?;
+        let mut errors = solved.errors.clone();
+        table.measure(&states, &mut errors, &mut |measured, errors| {
+            let done = tasks.len() + WEIGHT * measured;
+            let goes_on = progress(done, total);
+            solved.errors.copy_from_slice(errors);
+            kept.write(recipe, solved, !goes_on)?;
+            match goes_on {
+                true => Ok(()),
+                false => Err(DatabaseError::Interrupted { done, total }),
+            }
+        })?;
+        table.accuracy = table.accuracy_of(&states, &errors);
+        Ok(table)
+    }
+
+    /// What this table knows of the films of a finer one.
+    fn taken_over(&self, finer: &SuperpositionRecipe) -> Result<Solved, DatabaseError> {
+        let axes = finer.axes()?;
+        let (own, shape) = (Shape::of(&self.axes), Shape::of(&axes));
+        let tasks = tasks(finer, shape);
+        let mut solved = Solved::default();
+        solved.fit(tasks.len(), 0);
+        if finer.grid != self.recipe.grid {
+            return Ok(solved);
         }
-        Ok(())
-    }
-
-    fn error_at(&self, sample: &Sample) -> Result<f64, DatabaseError> {
-        let Sample { drive, eps, tilts } = *sample;
-        let finer = self.recipe.grid.map(|cells| 2 * (3 * cells / 4));
-        let direct = solve_film(&self.recipe, drive, eps, tilts, finer)?.integrals;
-        let factor = if drive == Drive::Wedge { eps } else { 1.0 };
-        let [f1, f2, m1, m2] =
-            (self.lookup(drive, eps, tilts).integrals).map(|value| factor * value);
-        let force = direct.p_cos.hypot(direct.p_sin);
-        let moment = direct.p_z_cos.hypot(direct.p_z_sin).max(0.1 * force);
-        let of_force = (f1 - direct.p_cos).hypot(f2 - direct.p_sin) / force;
-        let of_moment = (m1 - direct.p_z_cos).hypot(m2 - direct.p_z_sin) / moment;
-        Ok(of_force.max(of_moment))
-    }
-
-    /// Largest error of a node of a gap as open as those of the samples.
-    fn node_error(&self, drive: Drive) -> f64 {
-        let shape = Shape::of(&self.axes);
-        let mut largest = 0.0_f64;
-        for (index, node) in self.nodes[drive as usize].iter().enumerate() {
-            let (eps, [along, across]) = place_of(&self.axes, shape.place(index));
-            if tilt_box::smallest_gap(eps, along, across) >= self.recipe.smallest_gap {
-                largest = largest.max(node[5]);
+        let mut centre = self.centre.iter();
+        for (films, task) in solved.films.iter_mut().zip(tasks) {
+            match task {
+                Task::Node(drive, place) => {
+                    if let Some(place) = own.within(shape, place) {
+                        *films = self.nodes[drive as usize][own.index(place)];
+                    }
+                }
+                Task::Centre(..) if finer.centre_nodes == self.recipe.centre_nodes => {
+                    if let Some(figures) = centre.next() {
+                        *films = *figures;
+                    }
+                }
+                Task::Centre(..) => {}
             }
         }
-        largest
-    }
-}
-
-/// A state between the nodes.
-struct Sample {
-    drive: Drive,
-    eps: f64,
-    tilts: [f64; 2],
-}
-
-/// Random states, evenly spread over the places of the axes, where the gap is open enough. The same for the
-/// same recipe and seed.
-fn samples(recipe: &SuperpositionRecipe, axes: &[Axis; 3], seed: u64) -> Vec<Sample> {
-    /// A share of states that is never as small as this one finds none.
-    const TRIES: usize = 1000;
-    let mut random = SplitMix { state: seed };
-    let mut samples = Vec::new();
-    for drive in Drive::ALL {
-        let mut found = 0;
-        for _ in 0..recipe.samples * TRIES {
-            if found == recipe.samples {
-                break;
-            }
-            let [eps, share, transverse] = axes
-                .each_ref()
-                .map(|axis| axis.at(random.next() * (axis.count() - 1) as f64));
-            let tilts = tilt_box::tilts(eps, [share, transverse]);
-            let is_open = tilt_box::smallest_gap(eps, tilts[0], tilts[1]) >= recipe.smallest_gap;
-            if is_open && eps >= recipe.smallest_eccentricity {
-                samples.push(Sample { drive, eps, tilts });
-                found += 1;
-            }
-        }
-    }
-    samples
-}
-
-/// Numbers in [0, 1) by the generator of Steele, Lea and Flood (2014), 10.1145/2660193.2660195.
-struct SplitMix {
-    state: u64,
-}
-
-impl SplitMix {
-    fn next(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        Ok(solved)
     }
 }
 
@@ -236,6 +170,11 @@ fn tasks(recipe: &SuperpositionRecipe, shape: Shape) -> Vec<Task> {
             .map(|(eps, tilts)| Task::Centre(eps, tilts)),
     );
     tasks
+}
+
+/// Films of the nodes of a recipe.
+pub(super) fn count_of_films(recipe: &SuperpositionRecipe) -> Result<usize, DatabaseError> {
+    Ok(tasks(recipe, Shape::of(&recipe.axes()?)).len())
 }
 
 /// The node whose film is solved for `node`, and the signs of its integrals there.
@@ -316,7 +255,7 @@ fn solve(
     ])
 }
 
-fn solve_film(
+pub(super) fn solve_film(
     recipe: &SuperpositionRecipe,
     drive: Drive,
     eps: f64,
@@ -324,7 +263,7 @@ fn solve_film(
     grid: [usize; 2],
 ) -> Result<DimensionlessSolution, DatabaseError> {
     let film = recipe.film(drive, eps, tilts);
-    let solution = solve_dimensionless(&film, grid)?;
+    let solution = solve_graded(&film, grid)?;
     if solution.outcome == Outcome::Converged {
         return Ok(solution);
     }

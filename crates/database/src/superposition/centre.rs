@@ -16,7 +16,7 @@
 use super::SuperpositionRecipe;
 use super::build::FIGURES;
 use super::grid::{Parts, Reach};
-use crate::axis::{Axis, Spacing};
+use crate::axis::{Axis, Placing, Spacing};
 use crate::error::DatabaseError;
 use crate::spline::{End, fit};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -29,10 +29,19 @@ const JOIN: f64 = 0.4;
 pub(super) const LARGEST_DEGREE: usize = 20;
 /// A below it has no direction.
 const SMALLEST: f64 = 1e-12;
-/// Of `Phi_1, Phi_2, Theta_1, Theta_2, peak`: those even in the tilts, and the odd ones.
-const LANES: [&[usize]; 2] = [&[0, 1, 4], &[2, 3]];
+/// Lanes of a film: `Phi_1, Phi_2, Theta_1, Theta_2, peak`.
+const LANES: usize = 5;
+/// Of them, those that are fitted side by side, with their parity: even in the tilts, odd, and the even peak, of which
+/// no derivatives are asked.
+const GROUPS: [(usize, &[usize]); 3] = [(0, &[0, 1]), (1, &[2, 3]), (0, &[4])];
 /// Legendre polynomials up to one degree above the largest, and their derivatives.
-type Polynomials = [[f64; LARGEST_DEGREE + 2]; 2];
+struct Polynomials {
+    /// Even ones, then odd ones.
+    values: [[f64; HALF]; 2],
+    slopes: [[f64; HALF]; 2],
+}
+/// Polynomials of a parity.
+const HALF: usize = LARGEST_DEGREE / 2 + 1;
 
 /// States `(eps, [along, across])` of the films near the centre.
 pub(super) fn states(recipe: &SuperpositionRecipe) -> Vec<(f64, [f64; 2])> {
@@ -65,7 +74,8 @@ fn axis(shells: usize) -> Result<Axis, DatabaseError> {
 /// Curves of the wedge near the centre.
 #[derive(Debug, Clone)]
 pub(super) struct Centre {
-    axis: Axis,
+    placing: Placing,
+    shells: usize,
     degree: usize,
     /// Coefficients of one A.
     width: usize,
@@ -91,13 +101,14 @@ impl Centre {
                 .zip(nodes)
                 .map(|((eps, tilts), node)| sample(*eps, *tilts, node))
                 .collect();
-            for parity in 0..2 {
-                lines.extend(least_squares(degree, parity, &samples));
+            for (parity, lanes) in GROUPS {
+                lines.extend(least_squares(degree, parity, lanes, &samples));
             }
         }
         let width = lines.len() / shells;
         Ok(Some(Self {
-            axis: axis(shells)?,
+            placing: axis(shells)?.placing(),
+            shells,
             degree,
             width,
             coefficients: fit(&lines, width, [End::NotAKnot; 2])?,
@@ -114,63 +125,118 @@ impl Centre {
         ]
     }
 
-    /// Forces over eps, moments, and peak, with derivatives.
-    pub(super) fn lookup(&self, eps: f64, [along, across]: [f64; 2]) -> Parts {
-        let size = eps.hypot(along).hypot(across).max(SMALLEST);
-        let [h, x, y] = [eps / size, along / size, across / size];
-        let reach = Reach::new(&self.axis, size);
-        let curves = self.curves(&reach, x, y);
+    /// Forces over eps, moments, and peak, with derivatives, at a size A.
+    pub(super) fn lookup(&self, eps: f64, [along, across]: [f64; 2], size: f64) -> Parts {
+        let size = size.max(SMALLEST);
+        let per_size = 1.0 / size;
+        let own = [eps * per_size, along * per_size, across * per_size];
+        let [h, x, y] = own;
         let mut parts = Parts::default();
+        let (curves, peak) = self.curves(size, x, y);
         for (lane, [value, by_size, by_x, by_y]) in curves.into_iter().enumerate() {
-            let inward = (by_x * x + by_y * y) / size;
+            let outward = by_size - (by_x * x + by_y * y) * per_size;
             let slopes = [
-                (by_size - inward) * h,
-                (by_size - inward) * x + by_x / size,
-                (by_size - inward) * y + by_y / size,
+                outward * h,
+                outward * x + by_x * per_size,
+                outward * y + by_y * per_size,
             ];
-            if lane == 4 {
-                parts.peak = size * value;
-            } else if lane < 2 {
+            if lane < 2 {
                 parts.values[lane] = value;
                 parts.slopes[lane] = slopes;
             } else {
                 parts.values[lane] = size * value;
-                let own = [h, x, y];
                 parts.slopes[lane] = std::array::from_fn(|k| own[k] * value + size * slopes[k]);
             }
         }
+        parts.peak = size * peak;
         parts
     }
 
-    /// Of each lane: value, derivatives by A, x and y.
-    fn curves(&self, reach: &Reach, x: f64, y: f64) -> [[f64; 4]; 5] {
-        let [of_x, of_y] = [legendre(x), legendre(y)];
-        let mut curves = [[0.0; 4]; 5];
+    /// Of forces and moments: value, derivatives by A, x and y; and the peak.
+    fn curves(&self, size: f64, x: f64, y: f64) -> ([[f64; 4]; 4], f64) {
+        let reach = Reach::new(&self.placing, self.shells, size);
+        let polynomials = [
+            Polynomials::at(x, self.degree + 1),
+            Polynomials::at(y, self.degree + 1),
+        ];
         let rows: [&[f64]; 4] = std::array::from_fn(|k| {
             &self.coefficients[(reach.first + k) * self.width..][..self.width]
         });
-        let mut at = 0;
-        for (parity, lanes) in LANES.into_iter().enumerate() {
-            for [i, j] in terms(self.degree, parity) {
-                let basis = of_x[0][i] * of_y[0][j];
-                let (by_x, by_y) = (of_x[1][i] * of_y[0][j], of_x[0][i] * of_y[1][j]);
-                for lane in lanes {
-                    let (mut value, mut slope) = (0.0, 0.0);
-                    for (k, row) in rows.iter().enumerate() {
-                        value += reach.value[k] * row[at];
-                        slope += reach.slope[k] * row[at];
-                    }
-                    let own = &mut curves[*lane];
-                    own[0] += basis * value;
-                    own[1] += basis * slope;
-                    own[2] += by_x * value;
-                    own[3] += by_y * value;
-                    at += 1;
-                }
+        let [even, odd] = [0, 1].map(|parity| count_of_terms(self.degree, parity));
+        let part = |from: usize, to: usize| rows.map(|row| &row[from..to]);
+        let forces = pairs(part(0, 2 * even), &reach, self.degree, 0, &polynomials);
+        let moments = pairs(
+            part(2 * even, 2 * (even + odd)),
+            &reach,
+            self.degree,
+            1,
+            &polynomials,
+        );
+        let peak = single(
+            part(2 * (even + odd), self.width),
+            &reach,
+            self.degree,
+            &polynomials,
+        );
+        ([forces[0], forces[1], moments[0], moments[1]], peak)
+    }
+}
+
+/// Sums of two curves side by side: value, derivatives by A, x and y.
+fn pairs(
+    rows: [&[f64]; 4],
+    reach: &Reach,
+    degree: usize,
+    parity: usize,
+    [of_x, of_y]: &[Polynomials; 2],
+) -> [[f64; 4]; 2] {
+    let rows = rows.map(|row| row.as_chunks::<2>().0);
+    let [w0, w1, w2, w3] = reach.value;
+    let [s0, s1, s2, s3] = reach.slope;
+    let (mut sums, mut first) = ([[0.0; 2]; 4], 0);
+    for i in 0..=degree + parity {
+        let [own, other] = [i % 2, (i + parity) % 2];
+        let count = count_of_line(degree, parity, i);
+        let [a, b, c, d] = rows.map(|row| &row[first..first + count]);
+        let (values, slopes) = (&of_y.values[other][..count], &of_y.slopes[other][..count]);
+        let (mut line, mut by_size, mut by_y) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+        for k in 0..count {
+            for lane in 0..2 {
+                let value = w0 * a[k][lane] + w1 * b[k][lane] + w2 * c[k][lane] + w3 * d[k][lane];
+                let slope = s0 * a[k][lane] + s1 * b[k][lane] + s2 * c[k][lane] + s3 * d[k][lane];
+                line[lane] += values[k] * value;
+                by_size[lane] += values[k] * slope;
+                by_y[lane] += slopes[k] * value;
             }
         }
-        curves
+        let (value, slope) = (of_x.values[own][i / 2], of_x.slopes[own][i / 2]);
+        for lane in 0..2 {
+            sums[0][lane] += value * line[lane];
+            sums[1][lane] += value * by_size[lane];
+            sums[2][lane] += slope * line[lane];
+            sums[3][lane] += value * by_y[lane];
+        }
+        first += count;
     }
+    [0, 1].map(|lane| sums.map(|sum| sum[lane]))
+}
+
+/// The same of one even curve, its value alone.
+fn single(rows: [&[f64]; 4], reach: &Reach, degree: usize, [of_x, of_y]: &[Polynomials; 2]) -> f64 {
+    let [w0, w1, w2, w3] = reach.value;
+    let (mut sum, mut first) = (0.0, 0);
+    for i in 0..=degree {
+        let parity = i % 2;
+        let count = count_of_line(degree, 0, i);
+        let [a, b, c, d] = rows.map(|row| &row[first..first + count]);
+        let mut line = 0.0;
+        for k in 0..count {
+            line += of_y.values[parity][k] * (w0 * a[k] + w1 * b[k] + w2 * c[k] + w3 * d[k]);
+        }
+        sum += of_x.values[parity][i / 2] * line;
+        first += count;
+    }
+    sum
 }
 
 /// Degrees in x and y of the terms of a parity: up to `degree` even ones, one more for the odd ones.
@@ -181,26 +247,60 @@ fn terms(degree: usize, parity: usize) -> impl Iterator<Item = [usize; 2]> {
         .filter(move |[i, j]| (i + j) % 2 == parity)
 }
 
-/// Polynomials and their derivatives at a value from -1 to 1, by their recurrences.
-fn legendre(x: f64) -> Polynomials {
-    let mut found = [[0.0; LARGEST_DEGREE + 2]; 2];
-    found[0][0] = 1.0;
-    found[0][1] = x;
-    found[1][1] = 1.0;
-    for n in 2..LARGEST_DEGREE + 2 {
+/// Terms of a parity with the degree `i` in x.
+fn count_of_line(degree: usize, parity: usize, i: usize) -> usize {
+    let first = (i + parity) % 2;
+    (degree + parity - i - first) / 2 + 1
+}
+
+/// All terms of a parity.
+fn count_of_terms(degree: usize, parity: usize) -> usize {
+    (0..=degree + parity)
+        .map(|i| count_of_line(degree, parity, i))
+        .sum()
+}
+
+/// Factors of the recurrence `P_n = a_n x P_(n-1) - b_n P_(n-2)`.
+const RECURRENCE: [[f64; 2]; LARGEST_DEGREE + 2] = {
+    let mut factors = [[0.0; 2]; LARGEST_DEGREE + 2];
+    let mut n = 1;
+    while n < LARGEST_DEGREE + 2 {
         let order = n as f64;
-        found[0][n] =
-            ((2.0 * order - 1.0) * x * found[0][n - 1] - (order - 1.0) * found[0][n - 2]) / order;
-        found[1][n] = found[1][n - 2] + (2.0 * order - 1.0) * found[0][n - 1];
+        factors[n] = [(2.0 * order - 1.0) / order, (order - 1.0) / order];
+        n += 1;
     }
-    found
+    factors
+};
+
+impl Polynomials {
+    /// Polynomials up to degree `last` and their derivatives at a value from -1 to 1, by their recurrences.
+    fn at(x: f64, last: usize) -> Self {
+        let (mut values, mut slopes) = ([[0.0; HALF]; 2], [[0.0; HALF]; 2]);
+        let (mut before, mut value) = (0.0, 1.0);
+        let (mut slope_before, mut slope) = (0.0, 0.0);
+        values[0][0] = 1.0;
+        for n in 1..=last {
+            let [a, b] = RECURRENCE[n];
+            let next = a * x * value - b * before;
+            let next_slope = slope_before + (2 * n - 1) as f64 * value;
+            (before, value) = (value, next);
+            (slope_before, slope) = (slope, next_slope);
+            values[n % 2][n / 2] = value;
+            slopes[n % 2][n / 2] = slope;
+        }
+        Self { values, slopes }
+    }
+
+    fn value(&self, degree: usize) -> f64 {
+        self.values[degree % 2][degree / 2]
+    }
 }
 
 /// Direction of a film and its lanes.
 struct Sample {
     x: f64,
     y: f64,
-    lanes: [f64; 5],
+    lanes: [f64; LANES],
 }
 
 fn sample(eps: f64, [along, across]: [f64; 2], node: &[f64; FIGURES]) -> Sample {
@@ -220,16 +320,16 @@ fn sample(eps: f64, [along, across]: [f64; 2], node: &[f64; FIGURES]) -> Sample 
 
 /// Coefficients of the terms of a parity, its lanes side by side: normal equations, whose condition
 /// is that of Legendre polynomials on a disc, by their Cholesky factor.
-fn least_squares(degree: usize, parity: usize, samples: &[Sample]) -> Vec<f64> {
+fn least_squares(degree: usize, parity: usize, lanes: &[usize], samples: &[Sample]) -> Vec<f64> {
     let terms: Vec<_> = terms(degree, parity).collect();
-    let (n, lanes) = (terms.len(), LANES[parity]);
+    let n = terms.len();
     let mut matrix = vec![0.0; n * n];
     let mut right = vec![0.0; n * lanes.len()];
     for sample in samples {
-        let [of_x, of_y] = [legendre(sample.x), legendre(sample.y)];
+        let [of_x, of_y] = [sample.x, sample.y].map(|side| Polynomials::at(side, degree + 1));
         let basis: Vec<_> = terms
             .iter()
-            .map(|[i, j]| of_x[0][*i] * of_y[0][*j])
+            .map(|[i, j]| of_x.value(*i) * of_y.value(*j))
             .collect();
         for row in 0..n {
             for column in 0..n {
@@ -311,15 +411,17 @@ mod tests {
             (0.05, -0.4, 0.1),
             (0.3, 0.2, -0.3),
         ] {
-            let found = centre.lookup(eps, [along, across]);
+            let lookup = |eps: f64, [along, across]: [f64; 2]| {
+                centre.lookup(eps, [along, across], eps.hypot(along).hypot(across))
+            };
+            let found = lookup(eps, [along, across]);
             // Forces over eps are even in it.
             let expected = wedge(eps.max(1e-9), [along, across]);
             for (k, expected) in expected.into_iter().enumerate().take(4) {
                 let factor = if k < 2 { eps.max(1e-9) } else { 1.0 };
                 assert!((found.values[k] - expected / factor).abs() < 1e-7);
-                let at = |e: f64, a: f64, c: f64| {
-                    centre.lookup(eps + e, [along + a, across + c]).values[k]
-                };
+                let at =
+                    |e: f64, a: f64, c: f64| lookup(eps + e, [along + a, across + c]).values[k];
                 let differences = [
                     (at(h, 0.0, 0.0) - at(-h, 0.0, 0.0)) / (2.0 * h),
                     (at(0.0, h, 0.0) - at(0.0, -h, 0.0)) / (2.0 * h),
@@ -333,7 +435,7 @@ mod tests {
         }
         assert!(
             centre
-                .lookup(0.0, [0.0; 2])
+                .lookup(0.0, [0.0; 2], 0.0)
                 .values
                 .iter()
                 .all(|value| value.is_finite())

@@ -77,17 +77,20 @@ impl SuperpositionFilm {
     /// What a reader of its results must know.
     #[must_use]
     pub fn statement(&self) -> String {
-        let worst = |of: fn(&super::Accuracy) -> f64| {
-            self.table.accuracy().iter().map(of).fold(0.0, f64::max)
+        let recipe = self.table.recipe();
+        let status = match self.table.outcome() {
+            Outcome::Converged => "",
+            _ => "NOT CONVERGED, ",
         };
         format!(
             "superposition: pressures of wedge and squeeze are cut apart and their forces added, as in \
              the paper, which errs by tens of percent where both act; tilt rates are neglected; the \
-             tables err by at most {:.1e} of the force or moment of each where the relative gap is above \
-             {} and the relative eccentricity above {}",
-            worst(|a| a.largest.max(a.node_error)),
-            self.table.recipe().smallest_gap,
-            self.table.recipe().smallest_eccentricity
+             tables err by at most {:.1e} of the force or moment of each ({status}target {:.1e}) where the \
+             relative gap is above {} and the relative eccentricity above {}",
+            self.table.largest_error(),
+            recipe.target,
+            recipe.smallest_gap,
+            recipe.smallest_eccentricity
         )
     }
 
@@ -136,39 +139,39 @@ impl SuperpositionFilm {
     /// The narrowest gap: at the edge whose centre is farther out.
     fn narrowest(&self, state: &JournalState) -> Extreme {
         let half = 0.5 * self.width;
-        let at = |z: f64| {
+        let square = |z: f64| {
             let [x, y] = state.centre_at(z);
-            Extreme {
-                value: self.clearance - x.hypot(y),
-                angle: y.atan2(x),
-                axial: z,
-            }
+            x * x + y * y
         };
-        let edges = [at(-half), at(half)];
-        let worse = if edges[0].value <= edges[1].value {
-            edges[0]
+        let axial = if state.tilt == [0.0; 2] {
+            0.0
+        } else if square(-half) >= square(half) {
+            -half
         } else {
-            edges[1]
+            half
         };
-        if state.tilt == [0.0; 2] {
-            at(0.0)
-        } else {
-            worse
+        let [x, y] = state.centre_at(axial);
+        Extreme {
+            value: self.clearance - x.hypot(y),
+            angle: y.atan2(x),
+            axial,
         }
     }
 
     fn sum(&self, local: &Local) -> Sum {
         let sense = if local.wedge < 0.0 { -1.0 } else { 1.0 };
         let [along, across] = local.tilts;
-        let wedge = self
-            .table
-            .lookup(Drive::Wedge, local.eps, [along, sense * across]);
+        let spot = self.table.spot(local.eps, local.tilts);
+        let wedge = match sense < 0.0 && across != 0.0 {
+            true => (self.table).lookup(Drive::Wedge, local.eps, [along, -across]),
+            false => self.table.at(Drive::Wedge, &spot),
+        };
         let drive = if local.squeeze < 0.0 {
             Drive::Falling
         } else {
             Drive::Rising
         };
-        let squeeze = self.table.lookup(drive, local.eps, local.tilts);
+        let squeeze = self.table.at(drive, &spot);
         let signs = [1.0, sense, 1.0, sense];
         let (w, s) = (local.wedge.abs(), local.squeeze.abs());
         Sum {

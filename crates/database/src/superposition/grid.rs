@@ -3,8 +3,8 @@
 use super::Drive;
 use super::build::{FIGURES, place_of};
 use super::centre::Centre;
-use super::tilt_box;
-use crate::axis::Axis;
+use super::tilt_box::{self, TiltPlace};
+use crate::axis::{Axis, Placing};
 use crate::error::DatabaseError;
 use crate::spline::{End, coefficients, fit, weights};
 
@@ -39,6 +39,73 @@ impl Shape {
 
     pub(super) fn index(&self, [e, u, d]: [usize; 3]) -> usize {
         (e * self.counts[1] + u) * self.counts[2] + d
+    }
+
+    /// The node that stands at a node of a shape with as many nodes or one more between every two, along each axis.
+    pub(super) fn within(&self, finer: Self, place: [usize; 3]) -> Option<[usize; 3]> {
+        let mut own = place;
+        for (axis, node) in own.iter_mut().enumerate() {
+            let step = if finer.counts[axis] == self.counts[axis] {
+                1
+            } else {
+                2
+            };
+            if *node % step != 0 {
+                return None;
+            }
+            *node /= step;
+        }
+        Some(own)
+    }
+}
+
+/// The axes as lookups need them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Places([(Placing, usize); 3]);
+
+impl Places {
+    pub(super) fn of(axes: &[Axis; 3]) -> Self {
+        Self(axes.each_ref().map(|axis| (axis.placing(), axis.count())))
+    }
+
+    fn reach(&self, axis: usize, value: f64) -> Reach {
+        let (placing, count) = &self.0[axis];
+        Reach::new(placing, *count, value)
+    }
+}
+
+/// Where a state lies: the same for all drives.
+#[derive(Debug, Clone)]
+pub(super) struct Spot {
+    eps: f64,
+    /// Tilts along and across.
+    tilts: [f64; 2],
+    /// Root of the sum of the squares of the three.
+    size: f64,
+    /// Coefficients along the axes.
+    reach: [Reach; 3],
+    /// Derivatives of both shares by eccentricity, tilt along and tilt across.
+    slopes: [[f64; 3]; 2],
+}
+
+impl Spot {
+    pub(super) fn new(places: &Places, eps: f64, [along, across]: [f64; 2]) -> Self {
+        let is_tilted = places.0[1].1 > 1 || places.0[2].1 > 1;
+        let tilt = match is_tilted {
+            true => tilt_box::place(eps, along, across),
+            false => TiltPlace::default(),
+        };
+        Self {
+            eps,
+            tilts: [along, across],
+            size: (eps * eps + along * along + across * across).sqrt(),
+            reach: [
+                places.reach(0, eps),
+                places.reach(1, tilt.shares[0]),
+                places.reach(2, tilt.shares[1]),
+            ],
+            slopes: tilt.slopes,
+        }
     }
 }
 
@@ -148,10 +215,10 @@ impl Fitted {
     }
 
     /// Integrals and their derivatives; see [`super::SuperpositionTable::lookup`].
-    pub(super) fn lookup(&self, axes: &[Axis; 3], eps: f64, tilts: [f64; 2]) -> Looked {
-        let parts = self.parts(axes, eps, tilts);
+    pub(super) fn lookup(&self, spot: &Spot) -> Looked {
+        let parts = self.parts(spot);
         let [inverse, inverse_slope] = match self.first_of_wedge {
-            Some(first) => inverse_from(first, eps),
+            Some(first) => inverse_from(first, spot.eps),
             None => [1.0, 0.0],
         };
         let mut looked = Looked {
@@ -168,47 +235,42 @@ impl Fitted {
     }
 
     /// Near the centre the curves of a wedge over its direction, far from it those over the axes.
-    fn parts(&self, axes: &[Axis; 3], eps: f64, tilts: [f64; 2]) -> Parts {
+    fn parts(&self, spot: &Spot) -> Parts {
         let Some(centre) = &self.centre else {
-            return self.of_axes(axes, eps, tilts);
+            return self.of_axes(spot);
         };
-        let size = eps.hypot(tilts[0]).hypot(tilts[1]);
-        let [share, slope] = Centre::share_of_table(size);
+        let [share, slope] = Centre::share_of_table(spot.size);
         if share >= 1.0 {
-            return self.of_axes(axes, eps, tilts);
+            return self.of_axes(spot);
         }
-        let near = centre.lookup(eps, tilts);
+        let near = centre.lookup(spot.eps, spot.tilts, spot.size);
         if share <= 0.0 {
             return near;
         }
-        let by = [eps, tilts[0], tilts[1]].map(|own| slope * own / size);
-        near.towards(&self.of_axes(axes, eps, tilts), share, by)
+        let per_size = slope / spot.size;
+        let by = [spot.eps, spot.tilts[0], spot.tilts[1]].map(|own| per_size * own);
+        near.towards(&self.of_axes(spot), share, by)
     }
 
-    fn of_axes(&self, axes: &[Axis; 3], eps: f64, [along, across]: [f64; 2]) -> Parts {
-        let tilt = tilt_box::place(eps, along, across);
-        let [e, u, d] = [
-            Reach::new(&axes[0], eps),
-            Reach::new(&axes[1], tilt.shares[0]),
-            Reach::new(&axes[2], tilt.shares[1]),
-        ];
-        let (lanes, by_share) = self.sum(&[e, u, d]);
+    fn of_axes(&self, spot: &Spot) -> Parts {
+        let (lanes, by_share) = self.sum(&spot.reach);
         // By eccentricity at fixed tilts, the shares move too.
-        let [share, transverse] = tilt.slopes;
+        let [share, transverse] = spot.slopes;
         let slope = |lane: usize, which: usize| {
             let own = if which == 0 { by_share[0][lane] } else { 0.0 };
             own + by_share[1][lane] * share[which] + by_share[2][lane] * transverse[which]
         };
+        let of_size: [f64; 3] = std::array::from_fn(|which| slope(0, which));
         let size = lanes[0].exp();
         let drive = match self.first_of_wedge {
-            Some(_) => eps.hypot(along).hypot(across),
+            Some(_) => spot.size,
             None => 1.0,
         };
         let own = |k: usize| size * lanes[k + 1];
         Parts {
             values: std::array::from_fn(own),
             slopes: std::array::from_fn(|k| {
-                std::array::from_fn(|which| size * slope(k + 1, which) + own(k) * slope(0, which))
+                std::array::from_fn(|which| size * slope(k + 1, which) + own(k) * of_size[which])
             }),
             peak: size * lanes[5].exp() * drive,
         }
@@ -216,32 +278,37 @@ impl Fitted {
 
     /// Lanes, and their derivatives by the values along the three axes.
     fn sum(&self, [e, u, d]: &[Reach; 3]) -> ([f64; LANES], [[f64; LANES]; 3]) {
-        let mut value = [0.0; LANES];
-        let mut slopes = [[0.0; LANES]; 3];
+        let (mut value, mut slopes) = ([0.0; LANES], [[0.0; LANES]; 3]);
         let [_, n_share, n_transverse] = self.extents;
         for i in 0..e.count {
+            let (mut plane, mut by_share, mut by_transverse) =
+                ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
             for j in 0..u.count {
                 let row = ((e.first + i) * n_share + u.first + j) * n_transverse + d.first;
-                let mut line = [0.0; LANES];
-                let mut rise = [0.0; LANES];
-                for k in 0..d.count {
-                    let at = (row + k) * LANES;
-                    let node = &self.coefficients[at..at + LANES];
-                    for lane in 0..LANES {
-                        line[lane] += d.value[k] * node[lane];
-                        rise[lane] += d.slope[k] * node[lane];
-                    }
+                let (nodes, _) =
+                    self.coefficients[row * LANES..(row + d.count) * LANES].as_chunks::<LANES>();
+                let (mut line, mut rise) = ([0.0; LANES], [0.0; LANES]);
+                for ((node, value), slope) in nodes.iter().zip(&d.value).zip(&d.slope) {
+                    add(&mut line, *value, node);
+                    add(&mut rise, *slope, node);
                 }
-                let weight = e.value[i] * u.value[j];
-                for lane in 0..LANES {
-                    value[lane] += weight * line[lane];
-                    slopes[0][lane] += e.slope[i] * u.value[j] * line[lane];
-                    slopes[1][lane] += e.value[i] * u.slope[j] * line[lane];
-                    slopes[2][lane] += weight * rise[lane];
-                }
+                add(&mut plane, u.value[j], &line);
+                add(&mut by_share, u.slope[j], &line);
+                add(&mut by_transverse, u.value[j], &rise);
             }
+            add(&mut value, e.value[i], &plane);
+            add(&mut slopes[0], e.slope[i], &plane);
+            add(&mut slopes[1], e.value[i], &by_share);
+            add(&mut slopes[2], e.value[i], &by_transverse);
         }
         (value, slopes)
+    }
+}
+
+#[inline(always)]
+fn add(sum: &mut [f64; LANES], factor: f64, node: &[f64; LANES]) {
+    for (own, value) in sum.iter_mut().zip(node) {
+        *own += factor * value;
     }
 }
 
@@ -259,6 +326,7 @@ fn inverse_from(first: f64, eps: f64) -> [f64; 2] {
 }
 
 /// Coefficients that a value reaches along one axis, with their weights.
+#[derive(Debug, Clone)]
 pub(super) struct Reach {
     pub first: usize,
     count: usize,
@@ -268,8 +336,8 @@ pub(super) struct Reach {
 
 impl Reach {
     /// Beyond the ends of an axis the curves go on straight.
-    pub(super) fn new(axis: &Axis, value: f64) -> Self {
-        if axis.count() == 1 {
+    pub(super) fn new(placing: &Placing, nodes: usize, value: f64) -> Self {
+        if nodes == 1 {
             return Self {
                 first: 0,
                 count: 1,
@@ -277,9 +345,9 @@ impl Reach {
                 slope: [0.0; 4],
             };
         }
-        let (place, per_value) = axis.place(value);
-        let inside = place.clamp(0.0, (axis.count() - 1) as f64);
-        let found = weights(inside, axis.count());
+        let (place, per_value) = placing.place(value);
+        let inside = place.clamp(0.0, (nodes - 1) as f64);
+        let found = weights(inside, nodes);
         let beyond = place - inside;
         Self {
             first: found.first,

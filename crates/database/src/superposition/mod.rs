@@ -17,23 +17,27 @@
 //! with the line of centres. It is for comparison.
 //! Source: O. Marsalek, P. Novotny, L. Drapal, V. Pistek (2012), 10.2478/v10138-012-0015-7, section 3.
 
+mod accuracy;
 mod build;
 mod centre;
 mod film;
 mod grid;
+mod recipe;
+mod refine;
 mod stored;
 pub mod tilt_box;
 
+pub use accuracy::Accuracy;
 pub use build::Progress;
 pub use film::SuperpositionFilm;
 pub use grid::Looked;
+pub use recipe::SuperpositionRecipe;
 
-use crate::axis::{Axis, Spacing};
+use crate::axis::Axis;
 use crate::error::DatabaseError;
 use centre::Centre;
-use grid::{Fitted, Shape};
-use sommerfeld_film::dimensionless::DimensionlessFilm;
-use sommerfeld_film::{Cavitation, Inlet};
+use grid::{Fitted, Places, Shape, Spot};
+use sommerfeld_film::Outcome;
 
 /// What a film is driven by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,190 +74,6 @@ impl Drive {
     }
 }
 
-/// What a database is built from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SuperpositionRecipe {
-    /// Diameter over width.
-    pub d_over_b: f64,
-    /// First and last relative eccentricity; beyond them the curves go on straight.
-    pub eccentricities: [f64; 2],
-    /// Nodes between them.
-    pub eccentricity_nodes: usize,
-    /// Largest shares of the tilts of [`tilt_box`], each way.
-    pub largest_shares: [f64; 2],
-    /// Nodes along them, odd; 1 and 1 for a database of aligned journals.
-    pub tilt_nodes: [usize; 2],
-    /// Films of the wedge near the centre: sizes of eccentricity and tilt together (none, or at least
-    /// five), and the even degree of the polynomials over their ratios. Without them the tables err by
-    /// percents where tilts are as large as the eccentricity and both are small.
-    pub centre_nodes: [usize; 2],
-    /// Closure of the ruptured film: `reynolds` or `gumbel`.
-    pub cavitation: Cavitation,
-    /// Where the film of the wedge starts. That of the squeeze is cyclic: its pressure peak may lie on
-    /// the line of the widest gap.
-    pub wedge_inlet: Inlet,
-    /// Cells around and along the axis of every film, extrapolated from it and half the axial cells, see
-    /// [`sommerfeld_film::dimensionless::solve_dimensionless`]. Films at random states have half as many
-    /// again.
-    pub grid: [usize; 2],
-    /// Smallest relative film thickness of the random states that the error is measured at.
-    pub smallest_gap: f64,
-    /// Smallest relative eccentricity of those states.
-    pub smallest_eccentricity: f64,
-    /// Number of random states of each drive.
-    pub samples: usize,
-}
-
-impl SuperpositionRecipe {
-    /// Tilted journals; the error is measured where the smallest gap is above 0.02.
-    #[must_use]
-    pub fn tilted(d_over_b: f64) -> Self {
-        Self {
-            d_over_b,
-            eccentricities: [0.01, 0.95],
-            eccentricity_nodes: 17,
-            largest_shares: [0.95, 0.85],
-            tilt_nodes: [21, 15],
-            centre_nodes: [9, 14],
-            cavitation: Cavitation::Reynolds,
-            wedge_inlet: Inlet::Cyclic,
-            grid: [128, 40],
-            smallest_gap: 0.02,
-            smallest_eccentricity: 0.01,
-            samples: 60,
-        }
-    }
-
-    /// Aligned journals.
-    #[must_use]
-    pub fn aligned(d_over_b: f64) -> Self {
-        Self {
-            eccentricities: [0.02, 0.99],
-            eccentricity_nodes: 25,
-            largest_shares: [0.0, 0.0],
-            tilt_nodes: [1, 1],
-            centre_nodes: [0, 0],
-            smallest_gap: 0.01,
-            smallest_eccentricity: 0.02,
-            samples: 40,
-            ..Self::tilted(d_over_b)
-        }
-    }
-
-    /// Nodes along eccentricity and the two shares of tilt.
-    ///
-    /// # Errors
-    /// [`DatabaseError::Recipe`] where a value cannot be built for.
-    fn axes(&self) -> Result<[Axis; 3], DatabaseError> {
-        let refused = |key, value: String, allowed| DatabaseError::Recipe {
-            key,
-            value,
-            allowed,
-        };
-        if !(self.d_over_b.is_finite() && self.d_over_b > 0.0) {
-            return Err(refused(
-                "d_over_b",
-                format!("{}", self.d_over_b),
-                "a positive number",
-            ));
-        }
-        if self.cavitation == Cavitation::MassConserving {
-            let allowed =
-                "reynolds, gumbel: with mass conserved and no supply there is no film at rest";
-            return Err(refused("cavitation", "mass-conserving".to_owned(), allowed));
-        }
-        if matches!(self.wedge_inlet, Inlet::MaxFilmLine { pressure } if pressure != 0.0) {
-            let allowed = "0: forces are proportional to the motion at no other pressure";
-            return Err(refused(
-                "inlet_pressure",
-                format!("{:?}", self.wedge_inlet),
-                allowed,
-            ));
-        }
-        if !self.eccentricities.iter().all(|eps| *eps > 0.0) {
-            let allowed = "numbers above 0";
-            return Err(refused(
-                "eccentricities",
-                format!("{:?}", self.eccentricities),
-                allowed,
-            ));
-        }
-        let [shells, degree] = self.centre_nodes;
-        let is_fit = shells >= 5 && degree.is_multiple_of(2) && degree <= centre::LARGEST_DEGREE;
-        if shells != 0 && !is_fit {
-            let allowed = "no sizes, or at least 5, and an even degree of at most 20";
-            return Err(refused(
-                "centre_nodes",
-                format!("{:?}", self.centre_nodes),
-                allowed,
-            ));
-        }
-        let [first, last] = self.eccentricities;
-        let tilt = |key, which: usize| {
-            let (count, largest) = (self.tilt_nodes[which], self.largest_shares[which]);
-            if count.is_multiple_of(2) {
-                return Err(refused(
-                    key,
-                    format!("{count} nodes"),
-                    "an odd number of nodes",
-                ));
-            }
-            if count == 1 {
-                return Axis::new(key, Spacing::Linear, 0.0, 0.0, 1);
-            }
-            Axis::new(key, Spacing::Atanh, -largest, largest, count)
-        };
-        let eccentricity = (self.eccentricity_nodes, Spacing::Atanh);
-        Ok([
-            Axis::new(
-                "eccentricities",
-                eccentricity.1,
-                first,
-                last,
-                eccentricity.0,
-            )?,
-            tilt("tilt share", 0)?,
-            tilt("transverse share", 1)?,
-        ])
-    }
-
-    /// The film of a drive at an eccentricity and tilts `[along, across]`.
-    fn film(&self, drive: Drive, eps: f64, [along, across]: [f64; 2]) -> DimensionlessFilm {
-        let [wedge, squeeze] = drive.factors();
-        DimensionlessFilm {
-            d_over_b: self.d_over_b,
-            relative_eccentricity: eps,
-            tilt_gamma: along / (1.0 - eps),
-            tilt_delta: across,
-            wedge,
-            squeeze,
-            cavitation: self.cavitation,
-            inlet: if drive == Drive::Wedge {
-                self.wedge_inlet
-            } else {
-                Inlet::Cyclic
-            },
-        }
-    }
-}
-
-/// How far the looked up integrals are from those of films solved directly, at random states of a drive: the
-/// larger of the error of the force vector over itself and of the moment vector over the larger of itself
-/// and a tenth of the force.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Accuracy {
-    /// States.
-    pub samples: usize,
-    /// Largest error.
-    pub largest: f64,
-    /// Error that 99.9 % of the states do not exceed.
-    pub of_999: f64,
-    /// Error that half of the states do not exceed.
-    pub median: f64,
-    /// Largest estimated error of a film at a node whose gap is above that of the states.
-    pub node_error: f64,
-}
-
 /// Figures of all nodes, by drive.
 type Nodes = [Vec<[f64; build::FIGURES]>; 3];
 
@@ -262,6 +82,8 @@ type Nodes = [Vec<[f64; build::FIGURES]>; 3];
 pub struct SuperpositionTable {
     recipe: SuperpositionRecipe,
     axes: [Axis; 3],
+    /// Where values lie on them, quickly.
+    places: Places,
     /// Integrals and peak at every node, by drive.
     nodes: Nodes,
     /// Integrals and peak of the wedge near the centre.
@@ -295,6 +117,7 @@ impl SuperpositionTable {
         };
         Ok(Self {
             recipe,
+            places: Places::of(&axes),
             axes,
             nodes,
             centre,
@@ -321,10 +144,35 @@ impl SuperpositionTable {
         self.recipe.tilt_nodes != [1, 1]
     }
 
+    /// Whether the random states of its generation err by no more than its recipe asks for.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        let is_met = |a: &Accuracy| a.samples > 0 && a.largest <= self.recipe.target;
+        match self.accuracy.iter().all(is_met) {
+            true => Outcome::Converged,
+            false => Outcome::NotConverged,
+        }
+    }
+
+    /// Largest error of all drives at the random states of its generation.
+    #[must_use]
+    pub fn largest_error(&self) -> f64 {
+        self.accuracy.iter().map(|a| a.largest).fold(0.0, f64::max)
+    }
+
     /// Integrals of a drive, those of the wedge over eps, at an eccentricity and tilts `[along, across]`
     /// (`gamma (1 - eps)` and `delta`) of an open gap, with their derivatives.
     #[must_use]
     pub fn lookup(&self, drive: Drive, eps: f64, tilts: [f64; 2]) -> Looked {
-        self.fitted[drive as usize].lookup(&self.axes, eps, tilts)
+        self.at(drive, &self.spot(eps, tilts))
+    }
+
+    /// Where a state lies, the same for all drives.
+    fn spot(&self, eps: f64, tilts: [f64; 2]) -> Spot {
+        Spot::new(&self.places, eps, tilts)
+    }
+
+    fn at(&self, drive: Drive, spot: &Spot) -> Looked {
+        self.fitted[drive as usize].lookup(spot)
     }
 }

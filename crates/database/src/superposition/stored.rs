@@ -5,7 +5,7 @@ use super::grid::Shape;
 use super::{Accuracy, Drive, SuperpositionRecipe, SuperpositionTable, centre};
 use crate::contents::{Contents, Value};
 use crate::error::DatabaseError;
-use sommerfeld_film::{Cavitation, Inlet};
+use sommerfeld_film::{Cavitation, Inlet, Outcome};
 use std::path::{Path, PathBuf};
 
 const SCHEME: &str = "superposition";
@@ -29,6 +29,9 @@ const NAMES: [(&str, &str); FIGURES] = [
 
 /// Films near the centre.
 const CENTRE: &str = "centre_D";
+
+/// Nodes and cells that were asked for, of an unfinished file.
+const ASKED: &str = "asked_nodes_and_cells";
 
 /// Files are rewritten after so many films at the least.
 const FILMS_PER_WRITE: usize = 256;
@@ -77,6 +80,8 @@ impl SuperpositionTable {
             ];
             let name = format!("accuracy_{}", drive.letter());
             contents.attribute(&name, Value::Numbers(numbers));
+            let name = format!("worst_{}", drive.letter());
+            contents.attribute(&name, Value::Numbers(a.worst.to_vec()));
         }
         let states = centre::states(&self.recipe);
         let lines = states
@@ -93,9 +98,26 @@ impl SuperpositionTable {
         if !states.is_empty() {
             contents.array(CENTRE, "1", meaning, &extents, lines.collect());
         }
-        let meaning = "samples, then errors over force and moment: largest, of 99.9 %, median of the \
-                       samples, largest of the nodes";
-        contents.attribute("accuracy_meaning", Value::Text(meaning.to_owned()));
+        for (name, meaning) in [
+            (
+                "accuracy_meaning",
+                "samples, then errors over force and moment: largest, of 99.9 %, median of the samples, \
+                 largest of the nodes before they are extrapolated",
+            ),
+            (
+                "worst_meaning",
+                "eccentricity, tilt along and tilt across, as they stand in the gap, of the sample that errs most",
+            ),
+            (
+                "status",
+                match self.outcome() {
+                    Outcome::Converged => "converged: all samples err by no more than the target",
+                    _ => "not-converged: a sample errs by more than the target",
+                },
+            ),
+        ] {
+            contents.attribute(name, Value::Text(meaning.to_owned()));
+        }
         contents.write(path, SCHEME)
     }
 
@@ -121,12 +143,14 @@ impl SuperpositionTable {
             }
             let name = format!("accuracy_{}", drive.letter());
             let [samples, largest, of_999, median, node_error] = numbers(&contents, path, &name)?;
+            let worst = numbers(&contents, path, &format!("worst_{}", drive.letter()))?;
             accuracy[drive as usize] = Accuracy {
                 samples: samples as usize,
                 largest,
                 of_999,
                 median,
                 node_error,
+                worst,
             };
         }
         let extents = [centre::states(&recipe).len(), 3 + FIGURES];
@@ -181,6 +205,9 @@ fn note_recipe(recipe: &SuperpositionRecipe, contents: &mut Contents) {
             Value::Number(recipe.smallest_eccentricity),
         ),
         ("samples", count(recipe.samples)),
+        ("seed", Value::Integer(recipe.seed as i64)),
+        ("target", Value::Number(recipe.target)),
+        ("most_films", count(recipe.most_films)),
         ("tilt_rates", text("neglected")),
     ] {
         contents.attribute(name, value);
@@ -214,6 +241,9 @@ fn recipe_of(contents: &Contents, path: &Path) -> Result<SuperpositionRecipe, Da
         smallest_gap: number("smallest_gap")?,
         smallest_eccentricity: number("smallest_eccentricity")?,
         samples: number("samples")? as usize,
+        seed: contents.integer(path, "seed")? as u64,
+        target: number("target")?,
+        most_films: number("most_films")? as usize,
     })
 }
 
@@ -233,6 +263,33 @@ fn numbers<const N: usize>(
     })
 }
 
+/// What is known of a recipe: not a number where a film is still to be solved.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Solved {
+    /// Figures by task.
+    pub films: Vec<[f64; FIGURES]>,
+    /// Errors by random state.
+    pub errors: Vec<f64>,
+}
+
+impl Solved {
+    /// Nothing is known where the numbers are others.
+    pub(super) fn fit(&mut self, films: usize, errors: usize) {
+        if self.films.len() != films {
+            self.films = vec![[f64::NAN; FIGURES]; films];
+            self.errors.clear();
+        }
+        if self.errors.len() != errors {
+            self.errors = vec![f64::NAN; errors];
+        }
+    }
+
+    fn count(&self) -> usize {
+        let films = self.films.iter().filter(|figures| !figures[0].is_nan());
+        films.count() + self.errors.iter().filter(|error| !error.is_nan()).count()
+    }
+}
+
 /// What an interrupted generation has solved, in a file beside the one that it is to be.
 pub(super) struct Kept {
     path: Option<PathBuf>,
@@ -250,50 +307,82 @@ impl Kept {
         }
     }
 
-    /// Films by task, not a number where one is still to be solved. A file of another recipe, or one that
-    /// cannot be read, is of no use and no harm.
-    pub(super) fn read(&self, tasks: usize) -> Vec<[f64; FIGURES]> {
-        let nothing = vec![[f64::NAN; FIGURES]; tasks];
-        let Some(path) = &self.path else {
-            return nothing;
-        };
-        let Ok(contents) = Contents::read(path, PARTIAL) else {
-            return nothing;
-        };
-        if recipe_of(&contents, path).ok() != Some(self.recipe) {
-            return nothing;
-        }
-        match contents.values(path, "solved", &[tasks, FIGURES]) {
-            Ok(values) => (values.chunks_exact(FIGURES))
-                .map(|figures| std::array::from_fn(|k| figures[k]))
-                .collect(),
-            Err(_) => nothing,
-        }
+    /// The recipe that was being solved, with more nodes or cells than the one that was asked for, and what is
+    /// known of it. A file of another recipe, or one that cannot be read, is of no use and no harm.
+    pub(super) fn read(&self) -> (SuperpositionRecipe, Solved) {
+        self.found().unwrap_or((self.recipe, Solved::default()))
     }
 
-    /// Keeps what is solved, now and then, or where it `must`.
+    fn found(&self) -> Option<(SuperpositionRecipe, Solved)> {
+        let path = self.path.as_ref()?;
+        let contents = Contents::read(path, PARTIAL).ok()?;
+        let level = recipe_of(&contents, path).ok()?;
+        let asked: [f64; 7] = numbers(&contents, path, ASKED).ok()?;
+        let [e, u, d, shells, degree, n, m] = asked.map(|count| count as usize);
+        let first = SuperpositionRecipe {
+            eccentricity_nodes: e,
+            tilt_nodes: [u, d],
+            centre_nodes: [shells, degree],
+            grid: [n, m],
+            ..level
+        };
+        if first != self.recipe {
+            return None;
+        }
+        let films = contents.arrays.get("solved")?;
+        let errors = contents.arrays.get("measured");
+        let solved = Solved {
+            films: (films.values.chunks_exact(FIGURES))
+                .map(|figures| std::array::from_fn(|k| figures[k]))
+                .collect(),
+            errors: errors
+                .map(|errors| errors.values.clone())
+                .unwrap_or_default(),
+        };
+        Some((level, solved))
+    }
+
+    /// Keeps what is solved of a recipe, now and then, or where it `must`.
     pub(super) fn write(
         &mut self,
-        solved: &[[f64; FIGURES]],
+        level: &SuperpositionRecipe,
+        solved: &Solved,
         must: bool,
     ) -> Result<(), DatabaseError> {
         let Some(path) = &self.path else {
             return Ok(());
         };
-        let count = solved.iter().filter(|figures| !figures[0].is_nan()).count();
-        if !must && count < self.written + FILMS_PER_WRITE {
+        let count = solved.count();
+        // Fewer than were written are those of finer nodes or cells.
+        if !must && count >= self.written && count < self.written + FILMS_PER_WRITE {
             return Ok(());
         }
         let mut contents = Contents::default();
-        note_recipe(&self.recipe, &mut contents);
-        let values = solved.iter().flatten().copied().collect();
-        contents.array(
-            "solved",
-            "1",
-            "Films by task",
-            &[solved.len(), FIGURES],
-            values,
+        note_recipe(level, &mut contents);
+        let first = &self.recipe;
+        let [u, d] = first.tilt_nodes;
+        let [shells, degree] = first.centre_nodes;
+        let asked = [
+            first.eccentricity_nodes,
+            u,
+            d,
+            shells,
+            degree,
+            first.grid[0],
+            first.grid[1],
+        ];
+        contents.attribute(
+            ASKED,
+            Value::Numbers(asked.map(|count| count as f64).to_vec()),
         );
+        let films = solved.films.iter().flatten().copied().collect();
+        let extents = [solved.films.len(), FIGURES];
+        contents.array("solved", "1", "Films by task", &extents, films);
+        let extents = [solved.errors.len()];
+        let meaning = "Errors of random states";
+        if !solved.errors.is_empty() {
+            contents.array("measured", "1", meaning, &extents, solved.errors.clone());
+        }
         self.written = count;
         contents.write(path, PARTIAL)
     }

@@ -15,7 +15,7 @@
 //! eccentricities near 1. `|share| = 1` is contact at an edge.
 
 /// Place of a tilt with its derivatives.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct TiltPlace {
     /// Share of the tilt in the plane of the narrowest gap, and of the transverse one.
     pub shares: [f64; 2],
@@ -31,10 +31,14 @@ pub fn place(eps: f64, along: f64, across: f64) -> TiltPlace {
     let a = square.sqrt();
     let widest = eps.acos();
     // 2 artanh(z/a) = ln((a + z)/(a - z)), z = across + i along
-    let v = 0.5
-        * (((a + across).powi(2) + along * along) / ((a - across).powi(2) + along * along)).ln();
+    let [near, far] = [
+        (a + across) * (a + across) + along * along,
+        (a - across) * (a - across) + along * along,
+    ];
+    // v = ln(near/far)/2, and tanh(v/2) without a logarithm.
+    let ratio = (near / far).sqrt();
     let psi = along.atan2(a + across) + along.atan2(a - across);
-    let transverse = (0.5 * v).tanh();
+    let transverse = (ratio - 1.0) / (ratio + 1.0);
     let share = psi / widest;
     // 1/(a^2 - z^2)
     let (re, im) = (

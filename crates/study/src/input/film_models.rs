@@ -4,9 +4,9 @@
 //! answer is refused by name.
 
 use super::study::{BearingCase, Duty, FilmModel, FilmSettings, TiltCondition};
-use crate::film_tables::{Scheme, holding};
+use crate::film_tables::{Scheme, StoredFilms, holding};
 use sommerfeld_bearing::CycleTilt;
-use sommerfeld_film::{Bearing, Elasticity, Finish, Inlet};
+use sommerfeld_film::{Bearing, Cavitation, Elasticity, Finish, Inlet};
 
 /// The scheme of the databases that a model looks up.
 pub(crate) const fn scheme(model: FilmModel) -> Scheme {
@@ -30,10 +30,23 @@ pub(crate) fn refusal(
     if model.is_field() {
         return None;
     }
-    if !stays_aligned(&case.duty) && !model.tilts(case.bearing.cavitation) {
+    if !stays_aligned(&case.duty) && !tilts(model, case.bearing.cavitation, &settings.databases) {
         return Some("it has no tilt".to_owned());
     }
     refusal_of_bearing(model, &case.bearing, settings)
+}
+
+/// Whether a model answers to tilt where the ruptured film is closed this way: of a superposition, whether all of
+/// its databases do.
+pub(crate) fn tilts(model: FilmModel, closure: Cavitation, databases: &[StoredFilms]) -> bool {
+    if model != FilmModel::Superposition {
+        return model.tilts(closure);
+    }
+    let mut own = databases
+        .iter()
+        .filter(|one| one.scheme() == scheme(model))
+        .peekable();
+    own.peek().is_some() && own.all(StoredFilms::is_tilted)
 }
 
 /// [`refusal`] of the bearing alone.

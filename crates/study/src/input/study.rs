@@ -114,12 +114,7 @@ pub enum DatabasePlan {
     /// Wedge and squeeze solved together.
     Combined(Recipe),
     /// Wedge and squeeze solved apart, as in the paper.
-    Superposition {
-        /// Everything that decides what it holds.
-        recipe: SuperpositionRecipe,
-        /// Error that is asked for.
-        target: f64,
-    },
+    Superposition(SuperpositionRecipe),
 }
 
 impl DatabasePlan {
@@ -128,7 +123,7 @@ impl DatabasePlan {
     pub const fn closure(&self) -> Cavitation {
         match self {
             Self::Combined(recipe) => recipe.closure,
-            Self::Superposition { recipe, .. } => recipe.cavitation,
+            Self::Superposition(recipe) => recipe.cavitation,
         }
     }
 
@@ -137,7 +132,7 @@ impl DatabasePlan {
     pub const fn scheme(&self) -> Scheme {
         match self {
             Self::Combined(_) => Scheme::Combined,
-            Self::Superposition { .. } => Scheme::Superposition,
+            Self::Superposition(_) => Scheme::Superposition,
         }
     }
 
@@ -146,7 +141,7 @@ impl DatabasePlan {
     pub const fn width_ratios(&self) -> [f64; 2] {
         match self {
             Self::Combined(recipe) => recipe.width_ratios,
-            Self::Superposition { recipe, .. } => [1.0 / recipe.d_over_b; 2],
+            Self::Superposition(recipe) => [1.0 / recipe.d_over_b; 2],
         }
     }
 
@@ -155,7 +150,7 @@ impl DatabasePlan {
     pub const fn target(&self) -> f64 {
         match self {
             Self::Combined(recipe) => recipe.target,
-            Self::Superposition { target, .. } => *target,
+            Self::Superposition(recipe) => recipe.target,
         }
     }
 }

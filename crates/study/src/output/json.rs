@@ -111,6 +111,9 @@ fn database_keys(database: &DatabaseResults) -> Value {
     keys["closure"] = json!(built.facts.closure);
     keys["width_ratios"] = json!(built.facts.width_ratios);
     keys["last_eccentricity"] = json!(built.facts.last_eccentricity);
+    keys["error_status"] = json!(built.facts.status_name());
+    keys["journal"] = json!(built.facts.journal());
+    keys["smallest_relative_film_thickness"] = json!(built.facts.smallest_gap);
     keys
 }
 
@@ -126,6 +129,8 @@ fn looked_up(databases: &[DatabaseFacts]) -> Value {
             "target": facts.bound,
             "maximum_relative_error": facts.stated_error,
             "error_samples": facts.samples,
+            "status": facts.status_name(),
+            "journal": facts.journal(),
         })
     });
     all.collect()

@@ -43,7 +43,7 @@ fn answer(built: &BuiltDatabase) -> Answer {
         headline: if is_met {
             "Target met"
         } else {
-            "Target missed"
+            "Target missed, not converged"
         },
         explanation: format!(
             "The force errs by at most {} of its size at {} states, target {}.",
@@ -179,6 +179,7 @@ fn content_section() -> Section {
 fn errors_table(built: &BuiltDatabase) -> Table {
     let mut rows = vec![
         ("Target", small(built.target)),
+        ("Status", built.facts.status_name().to_owned()),
         (
             "Largest, of the samples of the build (stated in the file)",
             small(built.facts.stated_error),
@@ -215,11 +216,16 @@ fn content_table(built: &BuiltDatabase) -> Table {
     let mut rows = vec![
         ("Scheme", built.facts.scheme.name().to_owned()),
         ("Closure", built.facts.closure.clone()),
-        ("Inlet", "cyclic".to_owned()),
+        ("Inlet", built.facts.inlet.clone()),
+        ("Journal", built.facts.journal().to_owned()),
         ("Width over diameter", ratios),
         (
             "Last relative eccentricity",
             built.facts.last_eccentricity.to_string(),
+        ),
+        (
+            "Smallest relative film thickness of the samples",
+            significant(built.facts.smallest_gap),
         ),
         ("Points", built.facts.points.to_string()),
     ];

@@ -16,7 +16,7 @@ use sommerfeld_database::{DatabaseError, Progress, Table, check, generate};
 use sommerfeld_film::Outcome;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Name of the database in the directory of the results.
@@ -96,12 +96,14 @@ fn results(study: &Study, file: PathBuf, built: Option<BuiltDatabase>, start: In
                 ),
             );
         }
-        Some(built) if built.facts.stated_error > built.target => {
+        Some(built) if built.facts.status != Outcome::Converged => {
+            header.status = Outcome::NotConverged;
             header.messages.insert(
                 0,
                 format!(
-                    "the films of wedge and squeeze err by up to {:.2e} between the nodes, more than \
-                     the target {:.2e}",
+                    "with as many films as it may have, the database errs by up to {:.2e} at random states, \
+                     more than the target {:.2e}: raise the target or database.most_films, or narrow what it \
+                     holds (last_eccentricity, smallest_gap)",
                     built.facts.stated_error, built.target
                 ),
             );
@@ -127,7 +129,11 @@ struct Watch {
     total: AtomicUsize,
     level: AtomicUsize,
     is_checking: AtomicBool,
+    /// All levels but those that a missed target adds are known from the start.
+    is_one_level: AtomicBool,
     is_stopped: AtomicBool,
+    /// Bits of the largest share that was told.
+    farthest: AtomicU64,
 }
 
 impl Progress for Watch {
@@ -144,6 +150,13 @@ impl Progress for Watch {
 }
 
 impl Watch {
+    /// A bar does not go back.
+    fn kept(&self, share: f64) -> f64 {
+        // Shares are positive, whose bits are in their order.
+        let before = self.farthest.fetch_max(share.to_bits(), Ordering::Relaxed);
+        share.max(f64::from_bits(before))
+    }
+
     /// Levels share the bar by halves of what is left: how many follow is known at the end alone.
     fn event(&self) -> ProgressEvent {
         let load = |number: &AtomicUsize| number.load(Ordering::Relaxed);
@@ -155,6 +168,13 @@ impl Watch {
             return ProgressEvent::new("starting", 0.0);
         }
         let share = done as f64 / total.max(1) as f64;
+        if self.is_one_level.load(Ordering::Relaxed) {
+            let label = match level {
+                1 => format!("{done} of {total} films"),
+                _ => format!("target missed, refined: {done} of {total} films"),
+            };
+            return ProgressEvent::new(label, self.kept(0.99 * share));
+        }
         let before = 1.0 - 0.5_f64.powi(level.saturating_sub(1) as i32);
         let label = format!("level {level}, {done} of {total} films");
         ProgressEvent::new(label, 0.95 * (before + 0.5 * (1.0 - before) * share))
@@ -224,9 +244,10 @@ fn built_and_checked(
                 fresh,
             })
         }
-        DatabasePlan::Superposition { recipe, .. } => {
+        DatabasePlan::Superposition(recipe) => {
             // It keeps what is solved beside the file that it is to be.
             let file = files.map(|(_, file)| file);
+            watch.is_one_level.store(true, Ordering::Relaxed);
             let table = SuperpositionTable::build(recipe, file, &mut |done, total| {
                 watch.films(done, total);
                 !watch.interrupted()

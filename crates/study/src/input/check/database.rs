@@ -14,6 +14,8 @@ use std::fs;
 
 const FILES: &str = "film.database";
 const RATIOS: &str = "database.width_ratios";
+const SMALLEST_GAP: &str = "database.smallest_gap";
+const NODES: &str = "database.nodes";
 /// Largest database, bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
@@ -187,11 +189,11 @@ impl Checker<'_> {
         let starts_on_line = self.text("film.inlet").as_deref() == Some("max-film-line");
         let width_ratios = self.width_ratios()?;
         let samples = self.count("database.samples");
-        let target = self.number("database.target")?;
         let last = self.number("database.last_eccentricity");
         if self.text("database.scheme")? == Scheme::Superposition.name() {
             return self.superposition_plan(closure, starts_on_line, width_ratios);
         }
+        self.refuse_keys_of_superposition()?;
         if starts_on_line {
             let message = "a combined database holds films that go around: a line at the widest gap has no \
                            place where the gap opens";
@@ -202,7 +204,7 @@ impl Checker<'_> {
         let usual = Recipe::new(closure, width_ratios[0]);
         let recipe = Recipe {
             width_ratios,
-            target,
+            target: self.number("database.target").unwrap_or(usual.target),
             last_eccentricity: last.unwrap_or(usual.last_eccentricity),
             samples: samples.unwrap_or(usual.samples),
             seed: self
@@ -231,23 +233,95 @@ impl Checker<'_> {
             self.errors.push(error.hinting("build one for each"));
             return None;
         }
-        let usual = SuperpositionRecipe::aligned(1.0 / narrow);
+        let is_tilted = self.text("database.journal")? == "tilted";
+        let usual = match is_tilted {
+            true => SuperpositionRecipe::tilted(1.0 / narrow),
+            false => SuperpositionRecipe::aligned(1.0 / narrow),
+        };
+        if !is_tilted && self.entry(SMALLEST_GAP).is_some() {
+            let message = "aligned journals leave a smallest gap of 1 - last_eccentricity";
+            let error = self.error_at(SMALLEST_GAP, message);
+            let hint = "give `database.last_eccentricity`, or journal = \"tilted\"";
+            self.errors.push(error.hinting(hint));
+            return None;
+        }
         let last = self.number("database.last_eccentricity");
         let last = last.unwrap_or(usual.eccentricities[1]);
+        let (eccentricity_nodes, tilt_nodes) = self.nodes(is_tilted, &usual)?;
+        let count = |path: &str, usual: usize| self.count(path).unwrap_or(usual);
         let recipe = SuperpositionRecipe {
             eccentricities: [usual.eccentricities[0], last],
+            eccentricity_nodes,
+            tilt_nodes,
             cavitation: closure,
             wedge_inlet: match starts_on_line {
                 true => Inlet::MaxFilmLine { pressure: 0.0 },
                 false => Inlet::Cyclic,
             },
-            // The samples reach as far as the nodes.
-            smallest_gap: 1.0 - last,
-            samples: self.count("database.samples").unwrap_or(usual.samples),
+            smallest_gap: match is_tilted {
+                true => self.number(SMALLEST_GAP).unwrap_or(usual.smallest_gap),
+                // The samples reach as far as the nodes.
+                false => 1.0 - last,
+            },
+            samples: count("database.samples", usual.samples),
+            seed: count("database.seed", usual.seed as usize) as u64,
+            most_films: count("database.most_films", usual.most_films),
+            target: self.number("database.target").unwrap_or(usual.target),
             ..usual
         };
-        let target = self.number("database.target")?;
-        Some(DatabasePlan::Superposition { recipe, target })
+        Some(DatabasePlan::Superposition(recipe))
+    }
+
+    /// What a combined database has not.
+    fn refuse_keys_of_superposition(&mut self) -> Option<()> {
+        let keys = [SMALLEST_GAP, NODES, "database.most_films"];
+        let given = keys.into_iter().find(|key| self.entry(key).is_some());
+        let is_tilted = self.text("database.journal")? == "tilted";
+        let (key, message) = match given {
+            _ if is_tilted => (
+                "database.journal",
+                "a combined database holds aligned journals: tilted ones would need five axes and more"
+                    .to_owned(),
+            ),
+            Some(key) => (key, format!("`{key}` is one of the scheme superposition")),
+            None => return Some(()),
+        };
+        let error = self.error_at(key, message);
+        self.errors
+            .push(error.hinting("scheme = \"superposition\""));
+        None
+    }
+
+    /// Nodes along the eccentricity and the tilts, as given or as usual.
+    fn nodes(
+        &mut self,
+        is_tilted: bool,
+        usual: &SuperpositionRecipe,
+    ) -> Option<(usize, [usize; 2])> {
+        let Some(Value::List(given)) = self.entry(NODES).and_then(|_| self.value(NODES)) else {
+            return Some((usual.eccentricity_nodes, usual.tilt_nodes));
+        };
+        let counts: Vec<usize> = given.iter().map(|count| *count as usize).collect();
+        let are_whole = given.iter().all(|count| count.fract() == 0.0);
+        match counts[..] {
+            [along] if are_whole && !is_tilted => Some((along, [1, 1])),
+            [along, tilt, across] if are_whole && is_tilted && tilt % 2 + across % 2 == 2 => {
+                Some((along, [tilt, across]))
+            }
+            _ => {
+                let message = match is_tilted {
+                    true => {
+                        "tilted journals have three whole numbers of nodes, those of the tilts odd"
+                    }
+                    false => "aligned journals have one whole number of nodes",
+                };
+                let error = self.error_at(NODES, message);
+                let hint = if is_tilted { "[17, 21, 15]" } else { "25" };
+                self.errors
+                    .push(error.hinting(format!("for example nodes = {hint}")));
+                None
+            }
+        }
     }
 
     fn count(&self, path: &str) -> Option<usize> {

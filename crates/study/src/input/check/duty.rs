@@ -5,7 +5,8 @@ use crate::input::error::InputError;
 use crate::input::load_file::{CycleSettings, LoadTable, read_load_table};
 use crate::input::schema::Mode;
 use crate::input::study::{
-    BearingCase, CycleDuty, Duty, Rotor, SteadyLoad, StoredInstants, Subject, TiltCondition,
+    BearingCase, CycleDuty, Duty, FilmModel, Rotor, SteadyLoad, StoredInstants, Subject,
+    TiltCondition,
 };
 use crate::input::values::Value;
 use sommerfeld_bearing::{CycleTilt, LoadCycle};
@@ -180,7 +181,13 @@ impl Checker<'_> {
                 let message = format!("the model {} has no tilt", model.name());
                 let error = self
                     .error_at(path, message)
-                    .hinting("use model = \"field\", or \"online\" with cavitation = \"gumbel\"");
+                    .hinting(match model {
+                        FilmModel::Superposition => {
+                            "its databases hold aligned journals: build them with journal = \"tilted\", or use \
+                             model = \"field\""
+                        }
+                        _ => "use model = \"field\", or \"online\" with cavitation = \"gumbel\"",
+                    });
                 self.errors.push(error);
             }
         }

@@ -22,6 +22,7 @@ mod wear;
 
 use super::error::{InputError, InputErrors};
 use super::files::{TABLE_CAP, read_text};
+use super::film_models::tilts;
 use super::keys::KEYS;
 use super::read::{Entries, Entry, MOST_ERRORS, Reading};
 use super::schema::{Key, Kind, Mode, Presence, find, nearest};
@@ -454,7 +455,7 @@ impl Checker<'_> {
             "reynolds" => Cavitation::Reynolds,
             _ => Cavitation::Gumbel,
         };
-        (!model.tilts(closure)).then_some(model)
+        (!tilts(model, closure, &self.databases)).then_some(model)
     }
 
     fn film_settings(&mut self) -> Option<FilmSettings> {
