@@ -53,8 +53,10 @@ enum Kernel {
     FittedFinest(Box<FittedFilm<9, 11, 14>>),
 }
 
-/// Largest width over diameter that four shapes are enough for.
+/// Largest width over diameter that four shapes on as many lines are enough for.
 const NARROW: f64 = 0.6;
+/// Largest width over diameter that four shapes on more lines are enough for after Gumbel.
+const MIDDLE: f64 = 0.9;
 /// Largest width over diameter that five are enough for.
 const WIDE: f64 = 1.0;
 /// Modulus of the substitution of a fitted film over the relative eccentricity.
@@ -96,7 +98,7 @@ impl AlignedFilm {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
                 Kernel::HalfNarrow(Box::new(HalfFilm::new(d_over_b, 64)))
             }
-            (Cavitation::Gumbel, Precision::OnLine) if width_ratio <= WIDE => {
+            (Cavitation::Gumbel, Precision::OnLine) if width_ratio <= MIDDLE => {
                 Kernel::HalfMiddle(Box::new(HalfFilm::new(d_over_b, 64)))
             }
             (Cavitation::Gumbel, Precision::OnLine) => {
