@@ -45,12 +45,11 @@ enum Kernel {
     HalfWide(Box<HalfFilm<6, 6>>),
     HalfFine(Box<HalfFilm<8, 8>>),
     HalfFinest(Box<HalfFilm<12, 12>>),
-    FittedNarrow(Box<FittedFilm<4, 6, 8>>),
-    FittedWide(Box<FittedFilm<5, 7, 8>>),
-    FittedWider(Box<FittedFilm<6, 8, 8>>),
-    FittedFine(Box<FittedFilm<7, 9, 10>>),
-    FittedNearContact(Box<FittedFilm<7, 9, 12>>),
-    FittedFinest(Box<FittedFilm<9, 11, 14>>),
+    FittedNarrow(Box<FittedFilm<4, 6>>),
+    FittedWide(Box<FittedFilm<5, 7>>),
+    FittedWider(Box<FittedFilm<6, 8>>),
+    FittedFine(Box<FittedFilm<7, 9>>),
+    FittedFinest(Box<FittedFilm<9, 11>>),
 }
 
 /// Largest width over diameter that four shapes on as many lines are enough for.
@@ -63,9 +62,6 @@ const WIDE: f64 = 1.0;
 const MODULUS: f64 = 0.96;
 /// The same where nodes crowd in the narrowest gap.
 const CROWDED: f64 = 0.985;
-/// Error of the force over its size that the fronts of a fitted film may leave, before what they still have to move
-/// is accounted for.
-const SETTLED: f64 = 1e-8;
 
 impl AlignedFilm {
     /// Film of a bearing of this width over diameter, all ends at cavitation pressure, cyclic.
@@ -84,15 +80,16 @@ impl AlignedFilm {
         }
         let d_over_b = 1.0 / width_ratio;
         let is_narrow = width_ratio <= NARROW;
-        let fitted = |elements, degree| Accuracy {
+        let fitted = |elements, degree, terms, tolerance| Accuracy {
             elements,
             degree,
+            terms,
             modulus: MODULUS,
-            tolerance: SETTLED,
+            tolerance,
         };
-        let crowded = |elements, degree| Accuracy {
+        let crowded = |elements, degree, terms| Accuracy {
             modulus: CROWDED,
-            ..fitted(elements, degree)
+            ..fitted(elements, degree, terms, 1e-7)
         };
         let kernel = match (cavitation, precision) {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
@@ -114,26 +111,26 @@ impl AlignedFilm {
                 Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
-                let accuracy = fitted(5, 6);
+                let accuracy = fitted(5, 6, 3, 3e-6);
                 Kernel::FittedNarrow(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if width_ratio > WIDE => {
-                let accuracy = fitted(6, 7);
+                let accuracy = fitted(6, 7, 3, 3e-6);
                 Kernel::FittedWider(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::OnLine) => {
-                let accuracy = fitted(6, 6);
+                let accuracy = fitted(6, 6, 3, 3e-6);
                 Kernel::FittedWide(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::Fine) => {
-                let accuracy = fitted(8, 7);
+                let accuracy = fitted(8, 7, 4, 1e-7);
                 Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, accuracy)))
             }
             (Cavitation::Reynolds, Precision::NearContact) => {
-                Kernel::FittedNearContact(Box::new(FittedFilm::new(d_over_b, crowded(8, 8))))
+                Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, crowded(8, 8, 5))))
             }
             (Cavitation::Reynolds, Precision::Finest) => {
-                Kernel::FittedFinest(Box::new(FittedFilm::new(d_over_b, crowded(10, 8))))
+                Kernel::FittedFinest(Box::new(FittedFilm::new(d_over_b, crowded(10, 8, 6))))
             }
             (Cavitation::MassConserving, _) => {
                 return Err(FilmError::Unsupported {
@@ -183,7 +180,6 @@ impl AlignedFilm {
             Kernel::FittedWide(film) => film.force(eps, motion),
             Kernel::FittedWider(film) => film.force(eps, motion),
             Kernel::FittedFine(film) => film.force(eps, motion),
-            Kernel::FittedNearContact(film) => film.force(eps, motion),
             Kernel::FittedFinest(film) => film.force(eps, motion),
         };
         let outcome = if settled {
@@ -237,7 +233,6 @@ impl AlignedFilm {
             Kernel::FittedWide(film) => film.figures(),
             Kernel::FittedWider(film) => film.figures(),
             Kernel::FittedFine(film) => film.figures(),
-            Kernel::FittedNearContact(film) => film.figures(),
             Kernel::FittedFinest(film) => film.figures(),
         }
     }

@@ -96,9 +96,8 @@ impl OnlineFilm {
     /// For B/D from 0.25 to 1.5 and all directions of motion the force is, by its size, within
     /// - closure `gumbel`: 4e-5 up to a relative eccentricity of 0.95, 1.5e-4 up to 0.99; its derivatives
     ///   are those of the discrete force;
-    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives are those of the discrete force
-    ///   too, with fronts that move along: differences give the same to 1e-6, from a relative eccentricity of 0.9 to
-    ///   2e-5 in some directions, where the elements cannot place a front far away in a wide gap.
+    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives leave the fronts that bound
+    ///   the film where they are and are within 1e-3 of force over gap, and of force over motion.
     ///
     /// (`film/tests/online.rs`)
     ///

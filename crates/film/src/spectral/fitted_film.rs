@@ -5,15 +5,15 @@
 //! p = 0 all around it;   H^3 p_theta = 0 at a and b    which places the fronts
 //! ```
 //! The film is mapped onto a rectangle between its fronts, where pressure is smooth: elements of high
-//! degree around, even polynomials across. The pressure that is zero on a front which is off by d is right to
-//! order d^2, and the front belongs where the flux across it has been used up by the sink behind it,
+//! degree around, even polynomials across. The fronts move by Newton's method: the pressure that is
+//! zero on a front which is off by d is right to order d^2, and the front belongs where the flux across
+//! it has been used up by the sink behind it,
 //!
 //! ```text
 //! |w| (sin(theta' - omega) - sin(theta - omega)) = (1 + (D/B)^2 front'^2) H^3 p_theta
 //! ```
-//! with omega the angle of the motion, in the mean weighted with each term of the front. From afar each line moves
-//! its fronts by itself, then Newton's method all together, with the derivatives of the discrete equations
-//! (`moving`), which also give those of the force with fronts that follow the journal.
+//! with omega the angle of the motion. The force follows to order d^2 too, so that a few updates
+//! suffice, and its derivatives need no third solution: `u dA/de p` with the two u of unit motions.
 //! Limits: the film is torn apart on every line across the width; it is, up to widths of some
 //! diameters. Pressures over 12 eta R^2/c^2, motion over c.
 //! References: H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber, Das Schwimmlager, VDI 1933; trial free
@@ -24,13 +24,10 @@ use super::answer::AlignedForce;
 use super::around::SommerfeldAngle;
 use super::profile::ProfileMatrix;
 use super::quadrature::{Element, gauss_legendre};
-use fronts::{BEFORE, FrontFit, Fronts};
-use moving::{Pull, Rates};
+use fronts::{FrontFit, Fronts};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-mod figures;
 mod fronts;
-mod moving;
 mod strip;
 
 /// How far beyond the half turn with w n > 0 a cold film is thought to reach, rad.
@@ -41,21 +38,12 @@ const LONGEST_MOVE: f64 = 0.4;
 const LEAST_RUPTURE: f64 = 0.05;
 /// Share of the slope of a front that counts at most in its move.
 const SLOPE_CAP: f64 = 0.5;
-/// Newton's method takes over where the fronts move less, rad (mean square).
-const CLOSE: f64 = 0.03;
-/// It has new rates where its changes fall less than to this share.
-const SLOW: f64 = 0.3;
-/// Its changes are at most this, rad; a greater one means that it is lost.
-const FARTHEST: f64 = 0.3;
-/// Changes of the force over its size that lines which move by themselves may still make.
-const UNFELT: f64 = 3e-6;
 /// More updates than this mean that the fronts do not settle.
 const MOST_UPDATES: usize = 14;
 
-/// Film of an aligned journal between fitted fronts; `M` shapes across, `G` lines on half the width, fronts of
-/// `L - 2` parts together.
+/// Film of an aligned journal between fitted fronts; `M` shapes across, `G` lines on half the width.
 #[derive(Debug, Clone)]
-pub(super) struct FittedFilm<const M: usize, const G: usize, const L: usize> {
+pub(super) struct FittedFilm<const M: usize, const G: usize> {
     /// (D/B)^2.
     aspect: f64,
     accuracy: Accuracy,
@@ -66,23 +54,14 @@ pub(super) struct FittedFilm<const M: usize, const G: usize, const L: usize> {
     /// Right-hand sides for motion along and across, and the answers u, by unknown.
     sources: Vec<[f64; 2]>,
     answers: Vec<[f64; 2]>,
-    /// The answers and the adjoints of the fronts' conditions.
-    fields: Vec<[f64; L]>,
     points: Vec<strip::Point>,
     map: SommerfeldAngle,
     /// The state of the last solution.
     eps: f64,
     motion: [f64; 2],
-    /// Fronts of the last solution, from the direction of motion.
+    /// Fronts of the last solution, from the direction of motion, and where they would go next, rad.
     fronts: Fronts<G>,
-    /// Where each line would have them.
-    pulls: [[Pull; G]; 2],
-    /// Their parts, rad, first of eccentricity and direction nothing.
-    parts: [f64; L],
-    /// How the equations change, the inverse of the fronts' part, how the fronts follow eccentricity and direction.
-    rates: Rates<L>,
-    inverse: Rates<L>,
-    follow: [[f64; 2]; L],
+    wishes: [[f64; G]; 2],
     is_warm: bool,
 }
 
@@ -93,9 +72,11 @@ pub(super) struct Accuracy {
     pub elements: usize,
     /// Their degree.
     pub degree: usize,
+    /// Terms of the fronts.
+    pub terms: usize,
     /// Modulus of the substitution over the relative eccentricity.
     pub modulus: f64,
-    /// Error of the force over its size that fronts may leave.
+    /// Change of the force over its size by a further update.
     pub tolerance: f64,
 }
 
@@ -123,7 +104,7 @@ impl<const M: usize, const G: usize> Shapes<M, G> {
     }
 }
 
-impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
+impl<const M: usize, const G: usize> FittedFilm<M, G> {
     /// For a film of this D/B.
     pub(super) fn new(d_over_b: f64, accuracy: Accuracy) -> Self {
         let Accuracy {
@@ -143,7 +124,6 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
             matrix: ProfileMatrix::new(starts),
             sources: vec![[0.0; 2]; nodes * M],
             answers: vec![[0.0; 2]; nodes * M],
-            fields: vec![[0.0; L]; nodes * M],
             points: vec![strip::Point::default(); elements * (degree + 1) * G],
             map: SommerfeldAngle::new(0.0, accuracy.modulus),
             eps: 0.0,
@@ -152,11 +132,7 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
                 angles: [[0.0; G]; 2],
                 slopes: [[0.0; G]; 2],
             },
-            pulls: [[Pull::default(); G]; 2],
-            parts: [0.0; L],
-            rates: [[0.0; L]; L],
-            inverse: [[0.0; L]; L],
-            follow: [[0.0; 2]; L],
+            wishes: [[0.0; G]; 2],
             is_warm: false,
         }
     }
@@ -174,20 +150,8 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
             self.begin(eps, driven);
             settled = self.settle();
         }
-        self.is_warm = settled && self.differentiate();
-        let mut found = if self.is_warm {
-            let change = self.newton_change();
-            for (part, change) in self.parts.iter_mut().zip(&change) {
-                *part += change;
-            }
-            self.tangents(&change)
-        } else {
-            // Where the elements are too coarse for the fronts of a gap so wide that the force does not feel them.
-            settled = self.settle_by_lines();
-            self.differentiate();
-            self.follow = [[0.0; 2]; L];
-            self.tangents(&[0.0; L])
-        };
+        self.is_warm = settled;
+        let mut found = self.tangents();
         if is_at_rest {
             found.force = [0.0; 2];
             found.by_eccentricity = [0.0; 2];
@@ -195,107 +159,61 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
         (found, settled)
     }
 
-    /// Fronts to begin with: those of the last film if it was a similar one, moved on as they follow.
+    /// Fronts to begin with: those of the last film if it was a similar one.
     fn begin(&mut self, eps: f64, motion: [f64; 2]) {
         let turn = cross(self.motion, motion).atan2(dot(self.motion, motion));
-        let rise = eps - self.eps;
-        let near = rise.abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3;
+        let near = (eps - self.eps).abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3;
         self.eps = eps;
         self.motion = motion;
         self.map = SommerfeldAngle::new(eps, self.accuracy.modulus);
-        if self.is_warm && near {
-            for (part, [by_rise, by_turn]) in self.parts.iter_mut().zip(&self.follow) {
-                *part += by_rise * rise + by_turn * turn;
-            }
-        } else {
+        if !(self.is_warm && near) {
             let reach = FRAC_PI_2 + FIRST_REACH;
-            self.parts = self.fit.fit(&[[-reach; G], [reach; G]], 1);
+            self.wishes = [[-reach; G], [reach; G]];
             self.is_warm = false;
         }
     }
 
-    /// Moves the fronts to where their conditions put them: from afar each line by itself, then all by Newton's
-    /// method, with rates known from a neighbour while that brings them on.
+    /// Updates until a further one would not change the force.
     fn settle(&mut self) -> bool {
-        let terms = (L - BEFORE) / 2;
-        let mut is_close = self.is_warm;
-        let mut last = f64::INFINITY;
-        for update in 0..MOST_UPDATES {
-            self.fronts = self.fit.fronts(&self.parts);
-            if !self.solve() {
-                return false;
-            }
-            if !is_close {
-                let parts = self.fit.fit(
-                    &self.wishes(),
-                    if update > 3 { terms } else { terms.min(3) },
-                );
-                let change = std::array::from_fn(|part| parts[part] - self.parts[part]);
-                is_close = self.fit.size::<L>(&change) < CLOSE;
-                if !is_close {
-                    self.parts = parts;
-                    continue;
-                }
-                if !self.differentiate() {
-                    return false;
-                }
-            }
-            let mut change = self.newton_change();
-            let mut size = self.fit.size(&change);
-            if self.aspect.max(1.0) * size * size < self.accuracy.tolerance {
-                return true;
-            }
-            if size > SLOW * last {
-                if !self.differentiate() {
-                    return false;
-                }
-                change = self.newton_change();
-                size = self.fit.size(&change);
-            }
-            if size > FARTHEST || size > last || size.is_nan() {
-                return false;
-            }
-            for (part, change) in self.parts.iter_mut().zip(change) {
-                *part += change;
-            }
-            last = size;
-        }
-        false
-    }
-
-    /// Lets each line move its fronts by itself until the force no longer feels it.
-    fn settle_by_lines(&mut self) -> bool {
-        self.begin(self.eps, self.motion);
-        let terms = (L - BEFORE) / 2;
+        let tolerance = self.accuracy.tolerance;
+        let mut terms = self.accuracy.terms.min(3);
         let (mut before, mut last_change) = ([0.0; 2], f64::INFINITY);
         for update in 0..MOST_UPDATES {
-            self.fronts = self.fit.fronts(&self.parts);
+            self.fronts = self.fit.fit(&self.wishes, terms);
             if !self.solve() {
                 return false;
             }
             let force = self.force_of_answers();
             let size = force[0].hypot(force[1]);
             let change = (force[0] - before[0]).hypot(force[1] - before[1]) / size;
+            let shift = self.move_fronts(terms);
             // The force follows the fronts to second order, and so do its changes one another.
-            let left = (change * change / last_change).max(0.1 * change);
-            if update > 1 && left < UNFELT {
+            let by_shift = self.aspect.max(1.0) * shift * shift;
+            let by_change = (change * change / last_change).max(0.1 * change);
+            let is_done = by_shift < tolerance || (update > 1 && by_change < tolerance);
+            if terms == self.accuracy.terms && is_done {
                 return true;
             }
-            let terms = if update > 3 { terms } else { terms.min(3) };
-            self.parts = self.fit.fit(&self.wishes(), terms);
+            if shift < 0.05 || update > 3 {
+                terms = self.accuracy.terms;
+            }
             (before, last_change) = (force, change);
         }
-        last_change < 10.0 * UNFELT
+        last_change < 10.0 * tolerance
     }
 
-    /// Where each line would have its fronts: where the flux across them is used up, rad.
-    fn wishes(&self) -> [[f64; G]; 2] {
+    /// Lets the fronts go where the flux across them is used up; how far they move, rad (mean square).
+    fn move_fronts(&mut self, terms: usize) -> f64 {
+        let speed = self.motion[0].hypot(self.motion[1]);
         let mut wishes = [[0.0; G]; 2];
         for g in 0..G {
             for side in 0..2 {
-                let way = self.pulls[side][g].way;
-                wishes[side][g] =
-                    self.fronts.angles[side][g] + way.clamp(-LONGEST_MOVE, LONGEST_MOVE);
+                let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
+                let steep = 1.0 + (self.aspect * slope * slope).min(SLOPE_CAP);
+                let used = at.sin() + steep * self.flux(side, g) / speed;
+                let beyond = std::f64::consts::PI - used.clamp(-1.0, 1.0).asin();
+                let wish = if side == 1 { beyond } else { beyond - TAU };
+                wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);
             }
             let over = wishes[1][g] - wishes[0][g] - (TAU - LEAST_RUPTURE);
             if over > 0.0 {
@@ -303,7 +221,14 @@ impl<const M: usize, const G: usize, const L: usize> FittedFilm<M, G, L> {
                 wishes[1][g] -= 0.5 * over;
             }
         }
-        wishes
+        self.wishes = wishes;
+        let next = self.fit.fit(&wishes, terms);
+        let moved = |side: usize| -> f64 {
+            let change =
+                std::array::from_fn(|g| next.angles[side][g] - self.fronts.angles[side][g]);
+            self.fit.size(&change)
+        };
+        moved(0).hypot(moved(1))
     }
 
     /// Angle of the motion from the line of centres, rad.
@@ -331,11 +256,12 @@ mod tests {
             let accuracy = |elements, degree| Accuracy {
                 elements,
                 degree,
+                terms: 4,
                 modulus: 0.96,
                 tolerance: 1e-7,
             };
-            let mut fine = FittedFilm::<7, 9, 10>::new(d_over_b, accuracy(8, 7));
-            let mut finer = FittedFilm::<9, 11, 10>::new(d_over_b, accuracy(10, 8));
+            let mut fine = FittedFilm::<7, 9>::new(d_over_b, accuracy(8, 7));
+            let mut finer = FittedFilm::<9, 11>::new(d_over_b, accuracy(10, 8));
             for eps in [0.2, 0.8, 0.95, 0.99] {
                 for k in 0..6 {
                     let direction = 0.2 + TAU * f64::from(k) / 6.0;

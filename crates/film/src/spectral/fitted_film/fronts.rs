@@ -8,8 +8,6 @@ use crate::spectral::quadrature::gauss_legendre;
 
 /// Most terms of a front.
 pub(super) const MOST_TERMS: usize = 6;
-/// Places before the parts of the fronts in an array of what the film depends on: eccentricity and direction.
-pub(super) const BEFORE: usize = 2;
 /// How fast the weight of lines falls towards the ends: (1 - Z^2) to this power.
 const FALL: i32 = 3;
 
@@ -58,57 +56,28 @@ impl<const G: usize> FrontFit<G> {
         Self { terms, weights }
     }
 
-    /// Parts of the terms in the fronts closest to the wishes, `count` terms for each.
-    pub(super) fn fit<const L: usize>(&self, wishes: &[[f64; G]; 2], count: usize) -> [f64; L] {
-        let mut parts = [0.0; L];
-        let terms = Self::count::<L>();
-        for side in 0..2 {
-            for term in 0..count.min(terms) {
-                let value = &self.terms[term][0];
-                parts[BEFORE + side * terms + term] = weighted(&self.weights, &wishes[side], value);
-            }
-        }
-        parts
-    }
-
-    /// The fronts of these parts.
-    pub(super) fn fronts<const L: usize>(&self, parts: &[f64; L]) -> Fronts<G> {
+    /// Fronts of `count` terms closest to the wishes.
+    pub(super) fn fit(&self, wishes: &[[f64; G]; 2], count: usize) -> Fronts<G> {
         let mut fronts = Fronts {
             angles: [[0.0; G]; 2],
             slopes: [[0.0; G]; 2],
         };
-        let terms = Self::count::<L>();
-        for (place, part) in parts.iter().enumerate().skip(BEFORE) {
-            let (side, term) = ((place - BEFORE) / terms, (place - BEFORE) % terms);
-            let [value, slope] = &self.terms[term];
-            for g in 0..G {
-                fronts.angles[side][g] += part * value[g];
-                fronts.slopes[side][g] += part * slope[g];
+        for side in 0..2 {
+            for [value, slope] in &self.terms[..count.min(MOST_TERMS)] {
+                let share = weighted(&self.weights, &wishes[side], value);
+                for g in 0..G {
+                    fronts.angles[side][g] += share * value[g];
+                    fronts.slopes[side][g] += share * slope[g];
+                }
             }
         }
         fronts
     }
 
-    /// Terms of one front of `L - BEFORE` parts of both.
-    pub(super) const fn count<const L: usize>() -> usize {
-        (L - BEFORE) / 2
-    }
-
-    /// A term and its slope by Z on the lines.
-    pub(super) fn term(&self, term: usize) -> &[[f64; G]; 2] {
-        &self.terms[term]
-    }
-
-    /// Weights of the lines in the fit.
-    pub(super) fn weights(&self) -> &[f64; G] {
-        &self.weights
-    }
-
-    /// Weighted mean square of a change of both fronts by these parts, rad.
-    pub(super) fn size<const L: usize>(&self, change: &[f64; L]) -> f64 {
+    /// Weighted mean square of a change of angles, rad.
+    pub(super) fn size(&self, change: &[f64; G]) -> f64 {
         let whole: f64 = self.weights.iter().sum();
-        let square: f64 = change[BEFORE..].iter().map(|part| part * part).sum();
-        (square / whole).sqrt()
+        (weighted(&self.weights, change, change) / whole).sqrt()
     }
 }
 
@@ -126,8 +95,7 @@ mod tests {
         let points = gauss_legendre(12);
         let front = |z: f64| 1.5 - 0.4 * z * z + 0.3 * z.powi(4);
         let wishes: [f64; 6] = std::array::from_fn(|g| front(points[g][0]));
-        let parts: [f64; 8] = fit.fit(&[wishes, wishes.map(|w| -w)], 3);
-        let fronts = fit.fronts(&parts);
+        let fronts = fit.fit(&[wishes, wishes.map(|w| -w)], 3);
         for g in 0..6 {
             let z = points[g][0];
             assert!((fronts.angles[0][g] - wishes[g]).abs() < 1e-12);
