@@ -558,7 +558,7 @@ fn stopped_and_resumed_it_is_the_same() {
 fn a_target_is_met_or_its_miss_is_a_status() {
     let recipe = SuperpositionRecipe {
         eccentricities: [0.1, 0.9],
-        eccentricity_nodes: 9,
+        eccentricity_nodes: 5,
         grid: [96, 24],
         smallest_gap: 0.1,
         smallest_eccentricity: 0.1,

@@ -39,7 +39,8 @@ impl Grading {
                 low = phi;
             }
             let next = phi - excess * self.slope(phi);
-            let next = if next > low && next < high {
+            // Bounds count as inside: round-off may put one on the angle itself.
+            let next = if next >= low && next <= high {
                 next
             } else {
                 0.5 * (low + high)
