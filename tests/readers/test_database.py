@@ -1,14 +1,25 @@
 """A database as h5py reads it: the lines of book/src/databases.md, and what a node must hold."""
 
-import os
-import subprocess
-from pathlib import Path
-
 import h5py
 import numpy as np
 import pytest
 
-from conftest import ROOT
+from conftest import ROOT, run
+
+STUDY = """
+schema = 1
+title = "Small table"
+analysis = "database"
+
+[database]
+scheme = "combined"
+width_ratios = 0.5
+target = 5e-3
+samples = 100
+
+[film]
+cavitation = "gumbel"
+"""
 
 
 def text(value):
@@ -18,11 +29,11 @@ def text(value):
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
-    """A small table, built by the example that the tests compile beside the command."""
-    command = Path(os.environ.get("SOMMERFELD_BIN", ROOT / "target/debug/sommerfeld"))
-    path = tmp_path_factory.mktemp("database") / "table.h5"
-    subprocess.run([command.parent / "examples/aligned_table", path], check=True)
-    return path
+    """A small table."""
+    directory = tmp_path_factory.mktemp("database")
+    (directory / "table.toml").write_text(STUDY)
+    run(directory / "table.toml", directory / "results")
+    return directory / "results" / "table.h5"
 
 
 def test_the_lines_of_the_book_run(file, capsys, monkeypatch):
