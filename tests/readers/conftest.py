@@ -249,14 +249,14 @@ grid = [32, 4]
 coefficient = "1e-16 m2/N"
 
 [wear.running_in]
-hours = "4 h"
+hours = "20 min"
 settled_below = 0.0
 """
 
 
 @pytest.fixture(scope="session")
 def worn(tmp_path_factory):
-    """A load cycle with contact after four hours of running-in."""
+    """A load cycle with contact after twenty minutes of running-in."""
     directory = tmp_path_factory.mktemp("study")
     (directory / "study.toml").write_text(WORN)
     (directory / "loads.csv").write_bytes((ROOT / "examples/02-big-end-diesel/loads.csv").read_bytes())

@@ -192,8 +192,8 @@ struct Past {
     deepest: f64,
 }
 
-/// Runs the shell of `bearing` in. `solve` solves the cycle of a bearing and tells what it wears; its
-/// maps have the same cells every time.
+/// Runs the shell of `bearing` in. `solve` solves the cycle of the bearing as it has run in so far and tells
+/// what it wears; its maps have the same cells every time.
 ///
 /// # Errors
 /// [`FilmError::Unsupported`] for settings that are not positive or maps whose cells change, and what
@@ -201,13 +201,13 @@ struct Past {
 pub fn run_in(
     bearing: &Bearing,
     settings: &RunningIn,
-    mut solve: impl FnMut(&Bearing) -> Result<WornCycle, FilmError>,
+    mut solve: impl FnMut(&RanIn) -> Result<WornCycle, FilmError>,
 ) -> Result<RanIn, FilmError> {
     check(settings)?;
     let mut ran = RanIn::fresh(bearing);
     let mut past: Option<Past> = None;
     loop {
-        let cycle = solve(&ran.bearing)?;
+        let cycle = solve(&ran)?;
         if cycle.outcome != Outcome::Converged {
             ran.end = RunningInEnd::NotSolved(cycle.outcome);
             return Ok(ran);

@@ -5,8 +5,8 @@ mod common;
 
 use common::{CONDITIONS, diesel_big_end, diesel_cycle, plain_bearing};
 use sommerfeld_bearing::{
-    CycleWear, EquilibriumRequest, EquilibriumSettings, OrbitSettings, RunningIn, RunningInEnd,
-    WornCycle, WornRoughness, find_equilibrium, journal_orbit, run_in, wear,
+    CycleWear, EquilibriumRequest, EquilibriumSettings, OrbitSettings, RanIn, RunningIn,
+    RunningInEnd, WornCycle, WornRoughness, find_equilibrium, journal_orbit, run_in, wear,
 };
 use sommerfeld_film::{
     Bearing, Cavitation, ContactLaw, FilmError, FilmForce, FilmSolver, Finish, GreenwoodTripp,
@@ -82,7 +82,8 @@ fn the_volume_worn_is_that_of_the_contact_load() {
 }
 
 /// The equilibrium of a tilted journal, and what it wears in a second.
-fn tilted(bearing: &Bearing) -> Result<WornCycle, FilmError> {
+fn tilted(ran: &RanIn) -> Result<WornCycle, FilmError> {
+    let bearing = &ran.bearing;
     let oil = Lubricant::constant(8e-3, 850.0);
     let mut film = FilmSolver::new(bearing, &oil, [48, 16])?;
     let frame = JournalState {
@@ -156,8 +157,8 @@ fn scarred(cells: usize, steps: usize) -> Vec<(f64, [f64; 3])> {
         ..RunningIn::of(COEFFICIENT, 1e7, SIGMA)
     };
     let mut seen = Vec::new();
-    let ran = run_in(&bearing, &settings, |bearing| {
-        let mut film = FilmSolver::new(bearing, &oil, [cells, 8])?;
+    let ran = run_in(&bearing, &settings, |ran| {
+        let mut film = FilmSolver::new(&ran.bearing, &oil, [cells, 8])?;
         let request = EquilibriumRequest {
             load: [0.0, -LOAD],
             moment: None,

@@ -43,7 +43,8 @@ fn bearing() -> Bearing {
 
 /// A cycle whose contact pressure falls by a factor e for each `SOFTNESS` worn off the bore, and at
 /// three angles of even cells by another factor.
-fn fading(bearing: &Bearing) -> Result<WornCycle, FilmError> {
+fn fading(ran: &RanIn) -> Result<WornCycle, FilmError> {
+    let bearing = &ran.bearing;
     let angles = vec![0.5, 2.0, 4.0];
     let wear = |angle: &f64| RATE * (-bearing.bore.offset(*angle, 0.0) / SOFTNESS).exp();
     let shares = [1.0, 0.5, 0.0];
@@ -147,8 +148,8 @@ fn summits_wear_with_the_profile() {
     let ran = run_in(&bearing(), &kept, fading).unwrap();
     assert!(ran.steps.iter().all(|step| step.shell_roughness == SHELL));
 
-    let still = |bearing: &Bearing| {
-        let mut cycle = fading(bearing)?;
+    let still = |ran: &RanIn| {
+        let mut cycle = fading(ran)?;
         cycle.on_shell.wear_load.fill(0.0);
         Ok(cycle)
     };
@@ -183,15 +184,15 @@ fn it_ends_where_rates_settle_or_fade_and_where_steps_are_used_up() {
     };
     assert_eq!(ran.end, RunningInEnd::Faded);
     assert!(last.deepest_rate < 0.09 * RATE && before.deepest_rate >= 0.09 * RATE);
-    let unsolved = |bearing: &Bearing| {
-        let starved = !bearing.bore.is_cylindrical();
+    let unsolved = |ran: &RanIn| {
+        let starved = !ran.bearing.bore.is_cylindrical();
         Ok(WornCycle {
             outcome: if starved {
                 Outcome::Starved
             } else {
                 Outcome::Converged
             },
-            ..fading(bearing)?
+            ..fading(ran)?
         })
     };
     let ran = run_in(&bearing(), &settling, unsolved).unwrap();

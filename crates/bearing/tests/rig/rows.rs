@@ -44,7 +44,8 @@ impl Rig {
             feed_pressures: None,
         };
         let mut start = None;
-        run_in(bearing, &settings, |bearing| {
+        run_in(bearing, &settings, |ran| {
+            let bearing = &ran.bearing;
             let mut film = FilmSolver::aligned(bearing, &self.oil, self.cells)?;
             let near = request(load, rpm, 0.0, start);
             let mut rest = find_equilibrium(&mut film, bearing, &near, &conditions)?;

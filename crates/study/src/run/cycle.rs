@@ -40,7 +40,12 @@ pub(super) fn solve_cycle(
     });
     let case = worn.as_ref().unwrap_or(case);
     let recorder = recorder.with_wear(case, duty);
-    let mut solved = bearing_cycle(case, duty, settings, start.as_ref(), recorder, progress)?;
+    let before = ran_in.as_ref().map_or(0.0, |_| running_in::SHARE);
+    let mut after = |event: ProgressEvent| {
+        let done = before + (1.0 - before) * event.done;
+        progress(ProgressEvent { done, ..event })
+    };
+    let mut solved = bearing_cycle(case, duty, settings, start.as_ref(), recorder, &mut after)?;
     if let Some(ran) = &ran_in {
         running_in::note(ran, header);
     }

@@ -10,6 +10,9 @@ use crate::results::{Header, status_name};
 use sommerfeld_bearing::{RanIn, RunningInEnd, WornCycle, run_in};
 use sommerfeld_film::{Bearing, FilmError, Outcome};
 
+/// Share of the run that the running-in is taken for, and not the orbit after it.
+pub(super) const SHARE: f64 = 0.95;
+
 /// Runs the shell of a case in, where the study asks for it; with it comes where the orbit of the last
 /// step began. A caller that stops ends it: the cycle that was not finished counts as not converged.
 pub(super) fn ran_in(
@@ -30,12 +33,24 @@ pub(super) fn ran_in(
             ..duty.clone()
         },
         settings,
-        step: 0,
         start: None,
         end: None,
     };
-    let ran = run_in(&case.bearing, &plan, |bearing| {
-        cycles.next(bearing, progress)
+    let hours = |time: f64| time / 3600.0;
+    let ran = run_in(&case.bearing, &plan, |ran| {
+        let label = format!(
+            "running in, {:.3} of {} h",
+            hours(ran.time),
+            hours(plan.duration)
+        );
+        let done = SHARE * ran.time / plan.duration;
+        cycles.next(&ran.bearing, &mut |event| {
+            progress(ProgressEvent {
+                label: format!("{label}, {}", event.label),
+                done,
+                ..event
+            })
+        })
     })?;
     Ok((Some(ran), cycles.start))
 }
@@ -45,7 +60,6 @@ struct WornCycles<'a> {
     case: &'a BearingCase,
     duty: CycleDuty,
     settings: &'a FilmSettings,
-    step: usize,
     /// Where the last orbit began, and where it ended.
     start: Option<WarmStart>,
     end: Option<WarmStart>,
@@ -59,7 +73,6 @@ impl WornCycles<'_> {
         bearing: &Bearing,
         progress: &mut ProgressCallback<'_>,
     ) -> Result<WornCycle, FilmError> {
-        self.step += 1;
         self.start = self.end.take();
         let (found, stopped) = self.orbit(bearing, progress)?;
         if found.outcome == Outcome::Converged || stopped || self.start.is_none() {
@@ -82,21 +95,8 @@ impl WornCycles<'_> {
         let points = orbit_settings(&self.duty).points_per_cycle(&self.duty.cycle);
         let recorder = FieldRecorder::new(points, 0, bearing.cavitation_pressure, None)
             .with_wear(&worn, &self.duty);
-        let step = self.step;
         let start = self.start.as_ref();
-        let solved = bearing_cycle(
-            &worn,
-            &self.duty,
-            self.settings,
-            start,
-            recorder,
-            &mut |event| {
-                progress(ProgressEvent {
-                    label: format!("running in, step {step}, {}", event.label),
-                    ..event
-                })
-            },
-        )?;
+        let solved = bearing_cycle(&worn, &self.duty, self.settings, start, recorder, progress)?;
         self.end = solved.end;
         let cycle = solved.results;
         let (share, thinnest) = (cycle.contact_load_share(), cycle.minimum_film_thickness());
