@@ -80,11 +80,13 @@ fn run(recipe: &Recipe, states: usize, seeds: &[u64]) -> Result<bool, DatabaseEr
             found.independent_maximum,
             begun.elapsed().as_secs_f64()
         );
-        let worst = &found.worst;
+        let (worst, peak) = (&found.worst, &found.peak_worst);
         println!(
-            "# largest error at eccentricity {:.6}, {:.2} deg",
+            "# largest error at eccentricity {:.6}, {:.2} deg; of peak pressure at {:.6}, {:.2} deg",
             worst.eccentricity,
-            worst.angle.to_degrees()
+            worst.angle.to_degrees(),
+            peak.eccentricity,
+            peak.angle.to_degrees()
         );
         kept &= found.maximum <= recipe.target
             && found.difference_maximum <= DIFFERENCE

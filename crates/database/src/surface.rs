@@ -31,6 +31,8 @@ pub(crate) struct Looked<const L: usize> {
 pub(crate) enum Mirrored {
     /// The same: its slope vanishes at both ends of the direction.
     Same,
+    /// The same, but for a kink where the gap opens, as of two peaks that change places.
+    Peak,
     /// The negative.
     Negative,
     /// An angle: pi less the angle, where the narrowest gap changes sides too.
@@ -41,7 +43,7 @@ impl Mirrored {
     /// The coefficient beyond the centre of that of the other direction.
     fn beyond_centre(self, coefficient: f64) -> f64 {
         match self {
-            Self::Same => coefficient,
+            Self::Same | Self::Peak => coefficient,
             Self::Negative => -coefficient,
             Self::Angle => std::f64::consts::PI - coefficient,
         }
@@ -67,16 +69,17 @@ impl<const L: usize> Surface<L> {
         let mut rows = vec![[0.0; L]; (beyond + eccentricities) * wide];
         for (lane, mirror) in mirrored.into_iter().enumerate() {
             for (e, bend) in bends.iter().enumerate().take(eccentricities) {
-                let end = match mirror {
-                    Mirrored::Same => End::Even,
-                    Mirrored::Negative => End::Bent(*bend),
-                    Mirrored::Angle => End::NotAKnot,
+                let ends = match mirror {
+                    Mirrored::Same => [End::Even; 2],
+                    Mirrored::Peak => [End::NotAKnot, End::Even],
+                    Mirrored::Negative => [End::Bent(*bend); 2],
+                    Mirrored::Angle => [End::NotAKnot; 2],
                 };
                 let nodes: Vec<f64> = values[e * directions..(e + 1) * directions]
                     .iter()
                     .map(|node| node[lane])
                     .collect();
-                for (d, c) in fit(&nodes, 1, [end; 2])?.into_iter().enumerate() {
+                for (d, c) in fit(&nodes, 1, ends)?.into_iter().enumerate() {
                     rows[(beyond + e) * wide + d][lane] = c;
                     if (1..=beyond).contains(&e) {
                         let opposite = (beyond - e) * wide + wide - 1 - d;

@@ -307,7 +307,7 @@ impl Table {
 
 /// ln of the peak pressure, side flow, share of the full film, angle of the peak.
 const SHOWN: [Mirrored; 4] = [
-    Mirrored::Same,
+    Mirrored::Peak,
     Mirrored::Same,
     Mirrored::Same,
     Mirrored::Angle,

@@ -111,6 +111,7 @@ fn fresh_states_stay_within_the_stated_error() {
             assert!(report.difference_maximum < 1e-6, "{report:?}");
             assert!(report.dissipation_minimum > 0.0, "{report:?}");
             assert!(report.tangent_quantile_99 < 1e-2, "{report:?}");
+            assert!(report.peak_maximum < 5e-3, "{report:?}");
         }
     }
 }
