@@ -10,7 +10,7 @@ use sommerfeld_bearing::{
 };
 use sommerfeld_film::{
     Bearing, Carrier, Cavitation, Feed, FeedLine, FeedShape, FilmError, FilmForce, FilmShear,
-    FilmSolver, JournalState, Outcome, ShortBearingFilm,
+    FilmSolver, JournalState, OnlineFilm, Outcome, ShortBearingFilm, Step,
 };
 use sommerfeld_oil::Lubricant;
 use std::f64::consts::TAU;
@@ -217,6 +217,57 @@ fn the_round_trip_closes_for_a_film_with_memory() {
     let [_, moments, positions] = round_trip(Cavitation::MassConserving, 240);
     assert!(moments < 0.01 * 7.0, "{moments} N m");
     assert!(positions < 2e-3, "{positions:e}");
+}
+
+/// What a film leaves out that takes a tilt to turn with the line of centres, as the paper's databases do: of the
+/// force over itself, and of the moment over the force at half the width. The journal tilts freely under moments that
+/// turn once and twice as fast as it does, of a tenth of its load at half the width.
+#[test]
+fn tilt_rates_that_are_left_out_cost_a_tenth_of_force_and_moment() {
+    let bearing = bearing(Cavitation::Gumbel);
+    let load = |angle: f64| [2500.0 + 800.0 * angle.cos(), 900.0 * angle.sin()];
+    let moment = |angle: f64| [4.0 * angle.sin(), 2.0 * (2.0 * angle).cos()];
+    let cycle = cycle(120, load, moment, CycleTilt::Free);
+    let oil = Lubricant::constant(8e-3, 850.0);
+    let mut on_line = OnlineFilm::new(&bearing, &oil).unwrap();
+    let orbit = run(&mut on_line, &bearing, &cycle, OrbitStart::Equilibrium);
+    assert_eq!(orbit.outcome, Outcome::Converged);
+    let of = [
+        left_out(&mut on_line, &bearing, &orbit),
+        left_out(&mut film(&bearing), &bearing, &orbit),
+    ];
+    println!("force and moment, median and largest: {of:.3?}");
+    for (one, other) in of[0].iter().zip(&of[1]) {
+        assert!((0.03..0.2).contains(one), "{of:?}");
+        assert!((one / other - 1.0).abs() < 0.1, "{of:?}");
+    }
+}
+
+/// Median and largest of the force and of the moment that a film owes to its tilt rates along an orbit.
+fn left_out(film: &mut dyn FilmForce, bearing: &Bearing, orbit: &JournalOrbit) -> [f64; 4] {
+    let mut answer = |state: &JournalState| {
+        let seen = film.linearise(state, Step::Steady, &CONDITIONS).unwrap();
+        [seen.reaction.force(), seen.reaction.moment()]
+    };
+    let apart = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
+    let (mut forces, mut moments) = (Vec::new(), Vec::new());
+    for point in &orbit.points[1..] {
+        let state = point.state;
+        let [[x, y], [u, v], [a, b]] = [state.position, state.velocity, state.tilt];
+        let turning = (x * v - y * u) / (x * x + y * y);
+        let whole = answer(&state);
+        let left = answer(&JournalState {
+            tilt_rate: [-turning * b, turning * a],
+            ..state
+        });
+        let size = whole[0][0].hypot(whole[0][1]);
+        forces.push(apart(whole[0], left[0]) / size);
+        moments.push(apart(whole[1], left[1]) / (size * 0.5 * bearing.width));
+    }
+    forces.sort_by(f64::total_cmp);
+    moments.sort_by(f64::total_cmp);
+    let (half, last) = (forces.len() / 2, forces.len() - 1);
+    [forces[half], forces[last], moments[half], moments[last]]
 }
 
 #[test]
