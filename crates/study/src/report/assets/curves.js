@@ -4,7 +4,7 @@ globalThis.sommerfeld.parts.push((report) => {
   const { theme, axis, layout, withUnit, bearingAxis, drawings } = report;
   const { cycle, middle, units, charts, stability } = report.data;
 
-  const dashes = ["solid", "dash", "dot", "dashdot", "longdash"];
+  const dashes = ["solid", "dash", "dot", "dashdot", "11px,3px"];
   const colours = ["first", "second", "third", "soft", "bad"];
 
   function crankAxis(angles) {
