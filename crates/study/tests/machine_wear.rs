@@ -255,7 +255,7 @@ fn journals_of_three_throws_wear_at_the_same_place_of_each_pin() {
 fn the_mains_of_an_elastic_crankshaft_wear_by_their_contact() {
     let text = engine(|text| {
         let bar = "[engine.crankshaft]\nmodel = \"elastic\"\nmain_length = \"30 mm\"\n\
-            pin_length = \"26 mm\"\nweb_thickness = \"20 mm\"\nweb_width = \"90 mm\"\n\
+            pin_length = \"26 mm\"\nweb_thickness = \"22 mm\"\nweb_width = \"90 mm\"\n\
             [engine.combustion]";
         let coarse = text.replace("6 deg", "10 deg").replace("1e-4", "1e-3");
         coarse
@@ -281,11 +281,15 @@ fn the_mains_of_an_elastic_crankshaft_wear_by_their_contact() {
 
 /// A pin that swings: its films touch at speeds that change their sign.
 #[test]
-fn both_films_of_a_floating_pin_wear_by_their_contact() {
+fn both_films_of_a_pin_wear_by_their_contact() {
     let pin = "[[bearing]]\nof = \"small-end\"\ndiameter = \"22 mm\"\nwidth = \"22 mm\"\n\
         diametral_clearance = \"24 um\"\nSURFACE\n[[bearing]]\nof = \"piston-boss\"\n\
         diameter = \"22 mm\"\nwidth = \"26 mm\"\ndiametral_clearance = \"26 um\"\nSURFACE\n[orbit]";
-    let text = engine(|text| text.replace("[orbit]", pin));
+    // Dry friction has no balance of torques where a film sticks: the pin is given half of the speed of the rod.
+    let text = engine(|text| {
+        let given = text.replace("[orbit]", pin);
+        given.replace("speed = [", "pin_speed_share = 0.5\nspeed = [")
+    });
     let results = solved(&text, &["small-end-1", "piston-boss-1"]);
     for name in ["small-end-1", "piston-boss-1"] {
         let found = bearing(&results, name);

@@ -163,7 +163,7 @@ fn messages(machine: &MachineResults, plan: &MachinePlan, analysis: &str) -> Vec
     let mut advice: Vec<&str> = Vec::new();
     for (speed, bearing) in machine.bearings() {
         let outcome = bearing.cycle.orbit.outcome;
-        if outcome == Outcome::Converged || bearing.is_missing() {
+        if outcome == Outcome::Converged || bearing.is_missing() || is_closed(bearing, plan) {
             continue;
         }
         told.push(format!(
@@ -184,6 +184,14 @@ fn messages(machine: &MachineResults, plan: &MachinePlan, analysis: &str) -> Vec
     messages.extend(advice.into_iter().map(str::to_owned));
     messages.extend(beyond_the_physics(machine, plan));
     messages
+}
+
+/// The orbit itself closed: a note says what else did not converge.
+fn is_closed(bearing: &BearingResults, plan: &MachinePlan) -> bool {
+    let cycle = &bearing.cycle;
+    cycle.orbit.outcome == Outcome::NotConverged
+        && cycle.orbit.closure <= plan.orbit.closure_tolerance
+        && cycle.not_converged().next().is_none()
 }
 
 /// Where and how an orbit failed.
