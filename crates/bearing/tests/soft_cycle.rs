@@ -84,10 +84,10 @@ fn imbalance([is_soft, is_compressed, is_warm]: [bool; 3]) -> [f64; 2] {
     let settings = OrbitSettings {
         crank_step: TAU / POINTS as f64,
         cycle_limit: 12,
-        closure_tolerance: 1e-3,
+        closure_tolerance: 5e-3,
         ..OrbitSettings::default()
     };
-    let mut film = FilmSolver::new(&bearing, &oil, [36, 8]).unwrap();
+    let mut film = FilmSolver::new(&bearing, &oil, [48, 12]).unwrap();
     let interval = TAU / SPEED / POINTS as f64;
     let (mut step_before, mut worst_step, mut seen) = (None::<(f64, f64, f64)>, 0.0_f64, 0);
     let mut watch = |point: &CyclePoint, film: &dyn FilmForce, _: Progress| {
@@ -151,7 +151,6 @@ fn oil_is_conserved_in_soft_compressed_warm_cycles() {
     for kind in 0..8 {
         let [soft, dense, warm] = [1, 2, 4].map(|bit| kind & bit != 0);
         let [told, held] = imbalance([soft, dense, warm]);
-        println!("soft {soft} compressed {dense} warm {warm}: told {told:.1e}, held {held:.1e}");
         assert!(
             told < 1e-11 && held < 1e-11,
             "{soft} {dense} {warm}: {told:e} {held:e}"

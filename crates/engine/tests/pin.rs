@@ -130,17 +130,17 @@ fn friction_of_both_films_cancels_on_a_floating_pin() {
     }
 }
 
-/// In loose films the pressure turns a pin by more than the shear brakes it: with what the shear alone would
-/// say the speeds run away.
+/// In loose films the pressure turns a pin by more than the shear brakes it: by what the shear alone says the speeds
+/// come no closer in sixteen rounds.
 #[test]
 fn friction_cancels_on_a_pin_that_thin_films_lead_around() {
-    let loose = [bearing(0.022, 12e-6), bearing(0.026, 13e-6)].map(|film| Bearing {
+    let loose = [bearing(0.022, 20e-6), bearing(0.026, 20e-6)].map(|film| Bearing {
         diameter: 0.5 * film.diameter,
         ..film
     });
-    let (residual, rounds) = balanced(&loose, 1e-2, true);
-    assert!(residual <= 1e-2, "{residual} after {rounds} rounds");
-    let (residual, _) = balanced(&loose, 1e-2, false);
+    let (residual, rounds) = balanced(&loose, 2e-2, true);
+    assert!(residual <= 2e-2, "{residual} after {rounds} rounds");
+    let (residual, _) = balanced(&loose, 2e-2, false);
     assert!(residual > 1.0, "{residual}");
 }
 

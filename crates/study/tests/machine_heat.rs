@@ -107,10 +107,6 @@ fn assert_balanced(found: &BearingResults) -> f64 {
     let bar = (per_kelvin + 0.2) * 0.05 * 2.0;
     let left = lost - carried - conducted;
     let name = &found.name;
-    println!(
-        "{name}: {lost:.3} W = {carried:.3} + {conducted:.3} W, {left:.4} W left of {bar:.4} W, {:.2} degC",
-        heat.effective_temperature - 273.15
-    );
     assert!(left.abs() < bar, "{name}: {lost} {carried} {conducted}");
     assert!(lost > 0.0 && heat.trials.len() > 1, "{name}: {heat:?}");
     assert_eq!(
