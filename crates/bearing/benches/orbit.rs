@@ -4,7 +4,8 @@
 //! The loads are those of `examples/02-big-end-diesel`, the grids those of an engine (64 x 16 cells):
 //! half a film for an aligned journal, all of it for one whose tilt is prescribed, and a film that
 //! remembers. With `physics` in its name: the film that remembers on 128 x 32 cells, plain and with rough
-//! surfaces in contact and an oil that thickens and is compressed (bar: twice the time per cycle); and the
+//! surfaces in contact, an oil that thins under shear, one that thickens and is compressed (bar: twice the time per
+//! cycle); and the
 //! bearing at rest with one temperature and with one for each cell (bar: three
 //! times). Beside the times stand the figures of the cycle, which a faster orbit must not move.
 
@@ -26,7 +27,9 @@ use sommerfeld_bearing::{
 use sommerfeld_film::{
     Bearing, Cavitation, FilmForce, FilmSolver, JournalState, Outcome, Step, Surroundings,
 };
-use sommerfeld_oil::{CompressionLaw, DensityLaw, Lubricant, PressureLaw, ViscosityLaw};
+use sommerfeld_oil::{
+    CROSS_EXPONENT, CompressionLaw, DensityLaw, Lubricant, PressureLaw, ThinningForm, ViscosityLaw,
+};
 use std::f64::consts::PI;
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -115,9 +118,21 @@ fn mixed(cycle: &LoadCycle) {
         density_pressure: CompressionLaw::DowsonHigginson,
         ..thick.clone()
     };
+    // Three quarters of the viscosity at low shear are left at 150 degC and 1e6 1/s.
+    let thinning = |form| {
+        let thin = plain.clone().with_hths(6e-3, form, 0.4);
+        thin.unwrap()
+    };
+    let cross = thinning(ThinningForm::Cross {
+        exponent: CROSS_EXPONENT,
+    });
+    let carreau = thinning(ThinningForm::Carreau { exponent: 0.7 });
     for (name, bearing, oil) in [
         ("physics: plain", &smooth, &plain),
+        ("physics: Cross", &smooth, &cross),
+        ("physics: Carreau", &smooth, &carreau),
         ("physics: rough, contact", &rough, &plain),
+        ("physics: rough, Cross", &rough, &cross),
         ("physics: rough, Roelands", &rough, &thick),
         ("physics: rough, R., compressed", &rough, &dense),
     ] {

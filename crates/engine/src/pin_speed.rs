@@ -80,14 +80,47 @@ pub struct PinBalance {
     pub speeds: Vec<[f64; 2]>,
     /// Largest sum of both torques over the largest of them.
     pub residual: f64,
+    /// What these films said of each crank angle.
+    tried: Vec<Tried>,
+    /// Steps by the shear alone came no closer: the slopes are those between rounds.
+    learns: bool,
+}
+
+/// The sum of both torques on a pin at one crank angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Tried {
+    /// Speed of the pin, rad/s.
+    speed: f64,
+    /// Sum of the torques, N m.
+    torque: f64,
+    /// By how much it rises with the speed, N m s.
+    slope: f64,
 }
 
 impl PinBalance {
     /// From the orbits of small end and bosses with the speeds so far. The films change with the speed:
-    /// repeat until the residual is small. `None` if the orbits do not stand at the same crank angles, or
-    /// one has no point that converged and moved.
+    /// repeat, [`after`](Self::after) this one, until the residual is small. `None` if the orbits do not
+    /// stand at the same crank angles, or one has no point that converged and moved.
     #[must_use]
     pub fn of(small_end: &JournalOrbit, piston_boss: &JournalOrbit) -> Option<Self> {
+        Self::between(small_end, piston_boss, None)
+    }
+
+    /// The same from the orbits with the speeds of this balance. The films of both say how the torque of the
+    /// pressure goes with the speed: where a thin film leads the journal around, by many times what the shear
+    /// does, and steps by the shear alone would lead ever further away.
+    #[must_use]
+    pub fn after(&self, small_end: &JournalOrbit, piston_boss: &JournalOrbit) -> Option<Self> {
+        Self::between(small_end, piston_boss, Some(self))
+    }
+
+    fn between(
+        small_end: &JournalOrbit,
+        piston_boss: &JournalOrbit,
+        before: Option<&Self>,
+    ) -> Option<Self> {
+        /// A residual that falls to less than this of the one before is on a good way.
+        const FALLING: f64 = 0.5;
         /// Share of the way to the balance of today's films that the speed goes: of 0.5, 0.65, 0.8 and 1
         /// the fastest in a diesel at full load, a factor of about four a round.
         const PACE: f64 = 0.8;
@@ -104,23 +137,55 @@ impl PinBalance {
             return None;
         }
         let (rod, boss) = (TorqueParts::of(in_rod)?, TorqueParts::of(in_boss)?);
-        let speeds = pairs().enumerate().map(|(k, (at_rod, at_boss))| {
-            let pin = relative_speed(at_boss);
-            let rod_speed = pin - relative_speed(at_rod);
-            let dragged = rod.coefficient[k] * rod_speed - rod.pressure[k] - boss.pressure[k];
-            let balanced = dragged / (rod.coefficient[k] + boss.coefficient[k]);
-            [at_rod.crank_angle, pin + PACE * (balanced - pin)]
-        });
         let (mut most_left, mut largest) = (0.0_f64, 0.0_f64);
         for (rod, boss) in pairs().filter(|(rod, boss)| has_film(rod) && has_film(boss)) {
             let torques = [rod, boss].map(|point| point.reaction.friction_torque_journal);
             most_left = most_left.max((torques[0] + torques[1]).abs());
             largest = largest.max(torques[0].abs()).max(torques[1].abs());
         }
+        let residual = most_left / largest;
+        let learns = before.is_some_and(|it| it.learns || residual > FALLING * it.residual);
+        let before = before.filter(|_| learns).map_or(&[][..], |it| &it.tried);
+        let tried = pairs().enumerate().map(|(k, (at_rod, at_boss))| {
+            let shear = [rod.coefficient[k], boss.coefficient[k]];
+            let by_shear = shear[0] * relative_speed(at_rod) + shear[1] * relative_speed(at_boss);
+            let now = Tried {
+                speed: relative_speed(at_boss),
+                torque: by_shear + rod.pressure[k] + boss.pressure[k],
+                slope: shear[0] + shear[1],
+            };
+            now.since(before.get(k))
+        });
+        let tried: Vec<Tried> = tried.collect();
+        let speeds = tried.iter().zip(in_rod).map(|(tried, at_rod)| {
+            let balanced = tried.speed - tried.torque / tried.slope;
+            let speed = tried.speed + PACE * (balanced - tried.speed);
+            [at_rod.crank_angle, speed]
+        });
         Some(Self {
             speeds: speeds.collect(),
-            residual: most_left / largest,
+            residual,
+            tried,
+            learns,
         })
+    }
+}
+
+impl Tried {
+    /// With the slope between this and what was tried before: at least that of the shear, which is its own.
+    fn since(self, before: Option<&Self>) -> Self {
+        /// Most by which a slope rises in one round, which two torques that differ by chance ask for.
+        const STEEPER: f64 = 100.0;
+        let Some(before) = before else {
+            return self;
+        };
+        let between = (self.torque - before.torque) / (self.speed - before.speed);
+        let slope = if between.is_finite() {
+            between.clamp(self.slope, STEEPER * self.slope.max(before.slope))
+        } else {
+            self.slope.max(before.slope)
+        };
+        Self { slope, ..self }
     }
 }
 

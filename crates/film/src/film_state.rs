@@ -387,6 +387,11 @@ impl FilmState {
             &mut self.film_fraction,
         );
         self.expand(closure);
+        self.balance();
+    }
+
+    /// What enters each cell beyond what leaves it.
+    pub(crate) fn balance(&mut self) {
         let held = if self.expansion.density.is_empty() {
             &self.film_fraction
         } else {

@@ -27,4 +27,4 @@ pub use shear_thinning::{
     CROSS_EXPONENT, HTHS_SHEAR_RATE, HTHS_TEMPERATURE, ReferenceState, ShearThinning, Sheared,
     ThinningForm,
 };
-pub use viscosity::ViscosityLaw;
+pub use viscosity::{HOTTEST_OIL, ViscosityLaw};

@@ -23,8 +23,11 @@ const SHIFT: f64 = 0.7;
 const MM2_S: f64 = 1e6;
 /// Viscosity up to which Vogel's law is followed, Pa s: an oil this thick no longer pours.
 const THICKEST: f64 = 1e3;
-/// Highest temperature of Vogel's law, 250 degC, K: oils decay.
-const HOTTEST: f64 = 523.15;
+/// Highest temperature of a liquid lubricating oil, 250 degC, K; Vogel's law ends there. Mineral oils burn
+/// (fire point, ASTM D92): a turbine oil ISO VG 32 flashes at 222 and burns on at 252 degC (product data of
+/// Panther Lubes), engine oils flash at 218 to 238 degC and burn on 6 to 11 K above (MRT Laboratories, flash
+/// point of lubricating oil); all crack and oxidise within minutes.
+pub const HOTTEST_OIL: f64 = 523.15;
 /// Kinematic viscosities of ASTM D341 with the shift of 0.7 alone, mm2/s.
 const D341_VISCOSITIES: [f64; 2] = [2.0, 2e7];
 /// Temperatures of ASTM D341, -70 to 370 degC, K.
@@ -101,7 +104,7 @@ impl ViscosityLaw {
                 } else {
                     f64::INFINITY
                 },
-                high: HOTTEST,
+                high: HOTTEST_OIL,
             },
             Self::AstmD341 { kv40, kv100 } => {
                 let line = WaltherLine::through(kv40, kv100);

@@ -1,12 +1,14 @@
 //! Is a converged result still one that the physics of the run can mean?
 //!
 //! The equations have solutions far outside what they describe: a film thinner than the roughness of
-//! any shaft, pressures at which no shell is rigid. Such a result keeps its numbers and gets a message
+//! any shaft, pressures at which no shell is rigid, temperatures at which no oil is a liquid. Such a result keeps its numbers and gets a message
 //! that says what they are worth. Whether the flow is laminar is asked in [`regime`](crate::regime).
 //! Design limits are another thing: they are the user's, in [`limits`](crate::limits).
 
+use crate::input::{BearingCase, HeatPlan};
 use crate::limits::Quantity;
-use crate::results::{Body, Results};
+use crate::results::{Body, HeatResults, Results};
+use sommerfeld_oil::{HOTTEST_OIL, Lubricant};
 
 /// Thinnest film that smooth surfaces can stand for, m. The finest finished journals and shells have
 /// a combined roughness of some 0.03 um rms, and from about three times the combined roughness
@@ -20,9 +22,10 @@ pub const SMOOTH_SURFACES: f64 = 0.1e-6;
 pub const RIGID_SHELL: f64 = 1e9;
 
 /// What a reader of the results must know; empty where the physics holds. A result that is not there
-/// is not judged; of a machine the run names the bearings.
+/// is not judged; of a machine the run names the bearings. `case` is the bearing of the study, where it is
+/// one.
 #[must_use]
-pub fn warnings(results: &Results) -> Vec<String> {
+pub fn warnings(results: &Results, case: Option<&BearingCase>) -> Vec<String> {
     if let Body::Machine(_) = &results.body {
         return Vec::new();
     }
@@ -35,7 +38,82 @@ pub fn warnings(results: &Results) -> Vec<String> {
     };
     let thinnest = thinnest.filter(|_| !knows_contact).and_then(thin_film);
     let peak = peak.and_then(high_pressure);
-    thinnest.into_iter().chain(peak).collect()
+    let hot = case.and_then(|case| {
+        let hottest = match &results.header.heat {
+            Some(heat) => Hottest::of(heat),
+            None => Hottest {
+                what: Hottest::GIVEN,
+                temperature: case.temperature,
+            },
+        };
+        hot_film(&hottest, &case.lubricant, &case.heat)
+    });
+    thinnest.into_iter().chain(peak).chain(hot).collect()
+}
+
+/// The highest temperature that a calculation of heat knows of a film.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hottest {
+    /// What it is the temperature of, in words.
+    pub what: &'static str,
+    /// The temperature, K.
+    pub temperature: f64,
+}
+
+impl Hottest {
+    /// The one temperature of a film that is given.
+    pub const GIVEN: &'static str = "the temperature of the film";
+    /// The one temperature of a film that a heat balance found.
+    pub const EFFECTIVE: &'static str = "the effective temperature of the film";
+
+    /// Of a film whose heat was followed.
+    #[must_use]
+    pub fn of(heat: &HeatResults) -> Self {
+        match &heat.field {
+            Some(field) => Self {
+                what: "the hottest place of the film",
+                temperature: field.hottest,
+            },
+            None => Self {
+                what: Self::EFFECTIVE,
+                temperature: heat.effective_temperature,
+            },
+        }
+    }
+}
+
+/// What a temperature of a film is worth, if its oil is no longer one there or its laws have ended.
+#[must_use]
+pub fn hot_film(hottest: &Hottest, oil: &Lubricant, heat: &HeatPlan) -> Option<String> {
+    let celsius = |kelvin: f64| short(kelvin - 273.15);
+    let laws = oil.temperature_range();
+    let Hottest { what, temperature } = *hottest;
+    let found = format!("{what}, {} degC, is above", celsius(temperature));
+    if temperature > HOTTEST_OIL {
+        let way_out = match heat {
+            HeatPlan::Given => "",
+            HeatPlan::Balance { .. } => {
+                "; give more supply or a larger conductance, or take load off"
+            }
+            HeatPlan::Field { wall, .. } if wall.coefficient == 0.0 => {
+                "; the walls of this film take no heat (heat.wall_coefficient)"
+            }
+            HeatPlan::Field { .. } => {
+                "; give more supply or walls that take more heat, or take load off"
+            }
+        };
+        return Some(format!(
+            "{found} {} degC: no lubricating oil lives there, it burns and cracks; read it as \
+             overheating, not as a temperature{way_out}",
+            celsius(HOTTEST_OIL)
+        ));
+    }
+    (temperature > laws.high).then(|| {
+        format!(
+            "{found} {} degC, where the laws of this oil end: its viscosity is continued there",
+            celsius(laws.high)
+        )
+    })
 }
 
 /// What a minimum film thickness (m) of smooth surfaces is worth, if it is too thin for them.

@@ -201,21 +201,31 @@ fn speeds(summaries: [Value; 2], key: &str) -> Results {
 #[test]
 fn a_sweep_over_speed_with_contact_is_a_stribeck_curve() {
     let [steady, _] = mixed::both("mixed");
-    let case = || summary(&steady);
-    let page = own_part(&speeds([case(), case()], "operation.speed"));
+    // The faster case has half of the friction.
+    let pair = |results: &Results| {
+        let mut faster = summary(results);
+        let friction = faster["friction_coefficient"].as_f64().unwrap();
+        faster["friction_coefficient"] = (0.5 * friction).into();
+        [summary(results), faster]
+    };
+    let page = own_part(&speeds(pair(&steady), "operation.speed"));
     assert!(
         page.contains("data-kind=\"stribeck\"")
             && !page.contains("data-kind=\"friction_coefficient\"")
     );
+    assert!(page.contains("Smallest friction coefficient"));
+    // What both cases share stands in the table alone.
+    assert!(page.contains("Specific load") && !page.contains("data-kind=\"specific_load_pa\""));
     // Over another key, or without contact, friction stands alone.
-    let other = own_part(&speeds([case(), case()], "bearing.width"));
-    let smooth = || summary(&synthetic::steady("smooth"));
-    let smooth = own_part(&speeds([smooth(), smooth()], "operation.speed"));
+    let other = own_part(&speeds(pair(&steady), "bearing.width"));
+    let smooth = synthetic::steady("smooth");
+    let smooth = own_part(&speeds(pair(&smooth), "operation.speed"));
     for page in [other, smooth] {
         assert!(
             !page.contains("data-kind=\"stribeck\"")
                 && page.contains("data-kind=\"friction_coefficient\"")
         );
+        assert!(!page.contains("Smallest friction coefficient"));
     }
 }
 

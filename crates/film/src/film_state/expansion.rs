@@ -76,7 +76,8 @@ impl FilmState {
         Some((reduced / unit, pressure, slope))
     }
 
-    /// Density and displacement at the new pressures.
+    /// Density and displacement at the new pressures. Where the density bends by round-off alone the cell holds what
+    /// its equation said, so that a settled film gains and loses no oil.
     fn move_expansion(&mut self) {
         const ROUND_OFF: f64 = 1e-9;
         let unit = self.units.pressure;
@@ -97,9 +98,10 @@ impl FilmState {
                     [1.0, 0.0]
                 };
                 let linear = density[0] + density[1] * change;
-                self.is_bending |= is_full && (next[0] - linear).abs() > ROUND_OFF;
+                let bends = is_full && (next[0] - linear).abs() > ROUND_OFF;
+                self.is_bending |= bends;
                 *density = next;
-                content *= next[0];
+                content *= if is_full && !bends { linear } else { next[0] };
             }
             self.expansion.content[k] = content;
         }

@@ -163,14 +163,16 @@ pub(super) fn fill(page: &mut Page, sweep: &SweepResults) -> Value {
             title: "Stribeck curve",
             caption: format!(
                 "{caption} Friction torque of the journal over load and radius, the minimum film \
-                 over the composite roughness, and the share of the load that asperities carry."
+                 over the composite roughness, and the share of the load that asperities carry. A \
+                 ring marks the least friction of the speeds that were calculated."
             ),
             size: "wide",
         });
     }
     let alone = shown
         .iter()
-        .filter(|shown| !is_stribeck || !STRIBECK_KEYS.contains(&shown.key));
+        .filter(|shown| !is_stribeck || !STRIBECK_KEYS.contains(&shown.key))
+        .filter(|shown| shown.limit.is_some() || !is_the_same_everywhere(sweep, shown));
     let figures = alone.map(|shown| Figure {
         kind: shown.key,
         title: shown.headline.label,
@@ -180,6 +182,20 @@ pub(super) fn fill(page: &mut Page, sweep: &SweepResults) -> Value {
     page.figures.extend(figures);
     page.tables.push(case_table(sweep, &shown));
     data(sweep, &shown)
+}
+
+/// Whether all cases have one value of a headline, to round-off: the load of a sweep over the speed. The table says
+/// which.
+fn is_the_same_everywhere(sweep: &SweepResults, shown: &Shown) -> bool {
+    const ROUND_OFF: f64 = 1e-9;
+    let extremes = sweep.extremes(shown.column);
+    let all = sweep.cases.len();
+    // Where a case failed its mark is to be seen.
+    all > 1
+        && sweep.count(CaseStatus::Converged) == all
+        && extremes.is_some_and(|[(_, low), (_, high)]| {
+            (high - low).abs() <= ROUND_OFF * high.abs().max(low.abs())
+        })
 }
 
 /// The figure of friction, film and contact over speed.
@@ -320,7 +336,21 @@ fn cards(sweep: &SweepResults, shown: &[Shown]) -> Vec<Card> {
             ..Card::default()
         })
     });
-    std::iter::once(all).chain(best).collect()
+    let least_friction = shown.iter().filter_map(|shown| {
+        let is_asked = is_stribeck(sweep) && shown.key == "friction_coefficient";
+        let [(row, value), _] = is_asked.then(|| sweep.extremes(shown.column))??;
+        Some(Card {
+            label: "Smallest friction coefficient",
+            value: shown.unit.number(value),
+            unit: shown.unit.symbol,
+            detail: sweep.describe(row),
+            ..Card::default()
+        })
+    });
+    std::iter::once(all)
+        .chain(best)
+        .chain(least_friction)
+        .collect()
 }
 
 /// The limit of a headline beside the number of a case.

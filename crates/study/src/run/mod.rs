@@ -281,7 +281,7 @@ fn finish_results(study: &Study, results: &mut Results) {
     let beyond_laminar = results.flow_regime().and_then(|flow| flow.warning());
     results.header.messages.extend(beyond_laminar);
     results.header.messages.extend(beyond_database(results));
-    let warnings = sanity::warnings(results);
+    let warnings = sanity::warnings(results, study.bearing_case());
     results.header.messages.extend(warnings);
 }
 

@@ -1,7 +1,7 @@
 //! What a study asks about wear.
 
 use super::Checker;
-use crate::input::values::Value;
+use crate::input::values::{Value, not_built};
 use crate::input::wear::{RunningInPlan, WearPlan};
 use sommerfeld_bearing::WornRoughness;
 use sommerfeld_film::Bearing;
@@ -30,12 +30,29 @@ impl Checker<'_> {
         let coefficient = self.number("wear.coefficient");
         let running_in = match self.entry(RUNNING_IN) {
             None => None,
-            Some(_) => Some(self.running_in()?),
+            Some(_) => {
+                self.refuse_running_in_of_machines()?;
+                Some(self.running_in()?)
+            }
         };
         Some(Some(WearPlan {
             coefficient: coefficient?,
             running_in,
         }))
+    }
+
+    /// The bearings of a machine would run in one by one, each under loads of its own.
+    fn refuse_running_in_of_machines(&mut self) -> Option<()> {
+        if !self.mode.is_machine() {
+            return Some(());
+        }
+        let what = format!("{RUNNING_IN} of the analysis {}", self.mode.name());
+        let error = not_built(self.section_error(RUNNING_IN, ""), &what);
+        self.errors.push(error.hinting(
+            "take it out; the loads-<name>.csv that the run writes for each bearing can be run as a load-cycle \
+             study with it",
+        ));
+        None
     }
 
     fn running_in(&self) -> Option<RunningInPlan> {

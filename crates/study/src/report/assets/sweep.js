@@ -64,17 +64,35 @@ globalThis.sommerfeld.parts.push((report) => {
       margin: { l: 58, r: 18, t: legend || menus.length ? 40 : 12, b: 46 } }) };
   }
 
+  // Where each line of friction is least, with a ring around the point.
+  function least(figure, lines, unit) {
+    return lines.flatMap((line) => {
+      const found = line.y.filter((value) => value !== null);
+      const at = line.y.indexOf(Math.min(...found));
+      // A least value at an end of the speeds is none of the curve.
+      if (!(at > 0 && at < line.y.length - 1)) { return []; }
+      const logarithm = scaleOf(along).type === "log" ? Math.log10 : (value) => value;
+      return [{ at: logarithm(line.x[at]), value: line.y[at],
+        text: `least ${Number(line.y[at].toPrecision(3))} at ${Number(line.x[at].toPrecision(6))}${unit}`,
+        ring: { x: [line.x[at]], y: [line.y[at]], mode: "markers", hoverinfo: "skip", showlegend: false,
+          marker: { size: 13, symbol: "circle-open", color: line.line.color, line: { width: 1.8 } } } }];
+    });
+  }
+
   // Friction, film and contact over one speed, one below the other.
   function stribeck() {
     const panels = [["y", [0.56, 1]], ["y2", [0.25, 0.51]], ["y3", [0, 0.2]]];
     const titles = ["Friction<br>coefficient [–]", "Film over<br>roughness [–]", "Contact<br>share [%]"];
     const traces = [];
     const axes = {};
+    const annotations = [];
+    const unit = (along.label.match(/\[(.*)\]/) ?? ["", ""])[1];
     data.sweep.stribeck.forEach((key, at) => {
       const figure = data.sweep.figures[key];
       const [name, domain] = panels[at];
       const color = theme[["first", "second", "third"][at]];
-      for (const trace of linesOf(figure)) {
+      const lines = linesOf(figure);
+      for (const trace of lines) {
         // Along one speed each panel has its colour; of several loads each load has its own.
         const own = style === "second" ? {} : { line: Object.assign({}, trace.line, { color }),
           marker: Object.assign({}, trace.marker, { color: trace.marker.color.map((it) => (it === theme.bad ? it : color)) }) };
@@ -84,10 +102,19 @@ globalThis.sommerfeld.parts.push((report) => {
       const found = figure.values.filter((value) => value !== null);
       const isWide = at < 2 && Math.min(...found) > 0 && Math.max(...found) > 10 * Math.min(...found);
       const scale = isWide ? decades(Math.min(...found), Math.max(...found)) : { rangemode: "tozero" };
-      axes[name.replace("y", "yaxis")] = axis(titles[at], Object.assign({ domain, anchor: "x" }, scale));
+      axes[name.replace("y", "yaxis")] = axis("", Object.assign({ domain, anchor: "x" }, scale));
+      // All titles at one place, however wide the numbers of their scales are.
+      annotations.push({ text: titles[at], textangle: -90, xref: "paper", yref: "paper", x: 0, xshift: -64, xanchor: "center",
+        y: 0.5 * (domain[0] + domain[1]), yanchor: "middle", showarrow: false, font: { color: theme.soft, size: theme.size + 1 } });
+      if (at > 0) { return; }
+      for (const { at: x, value, text, ring } of least(figure, lines, unit ? ` ${unit}` : "")) {
+        traces.push(Object.assign(ring, { yaxis: name }));
+        annotations.push({ text, x, y: isWide ? Math.log10(value) : value, xref: "x", yref: name, showarrow: false,
+          yanchor: "middle", xanchor: "right", xshift: -12, font: { color: theme.ink, size: theme.size } });
+      }
     });
-    const xaxis = axis(along.label, Object.assign(scaleOf(along), { anchor: "y3" }));
-    return { traces, layout: layout(xaxis, axes.yaxis, Object.assign(axes, { hovermode: "closest",
+    const xaxis = axis(along.label.replace("operation.speed", "Speed"), Object.assign(scaleOf(along), { anchor: "y3" }));
+    return { traces, layout: layout(xaxis, axes.yaxis, Object.assign(axes, { hovermode: "closest", annotations,
       showlegend: style === "second", margin: { l: 84, r: 18, t: style === "second" ? 40 : 12, b: 46 } })) };
   }
   if (data.sweep.stribeck) { drawings.stribeck = stribeck; }

@@ -2,12 +2,13 @@
 
 use super::Work;
 use super::units::{BearingFound, UnitFound};
-use crate::input::{MachineBearing, MachinePlan};
+use crate::input::{HeatPlan, MachineBearing, MachinePlan};
+use crate::regime::FlowRegime;
 use crate::results::machine::{BearingResults, MachineResults, SpeedResults, TurnedFrom};
 use crate::results::{CycleResults, Header};
 use crate::run::cycle::without_orbit;
 use crate::run::{edge_contact_message, outcome_message};
-use crate::{regime::FlowRegime, sanity};
+use crate::sanity::{self, Hottest};
 use sommerfeld_bearing::LoadCycle;
 use sommerfeld_film::{Bearing, Outcome};
 use std::collections::BTreeMap;
@@ -73,7 +74,7 @@ pub(super) fn assemble(
         Outcome::Converged if !notes.is_empty() => Outcome::NotConverged,
         outcome => outcome,
     };
-    let mut messages = messages(&machine, &header.analysis);
+    let mut messages = messages(&machine, work.plan, &header.analysis);
     messages.extend(notes);
     messages.append(&mut header.messages);
     header.messages = messages;
@@ -149,7 +150,7 @@ fn outcome_of<'b>(bearings: impl Iterator<Item = &'b BearingResults>) -> Outcome
 }
 
 /// Orbits that are missing, orbits that did not converge, results beyond what they can mean.
-fn messages(machine: &MachineResults, analysis: &str) -> Vec<String> {
+fn messages(machine: &MachineResults, plan: &MachinePlan, analysis: &str) -> Vec<String> {
     let mut messages = Vec::new();
     let (missing, total) = (machine.missing(), machine.bearings().count());
     if missing > 0 {
@@ -162,7 +163,7 @@ fn messages(machine: &MachineResults, analysis: &str) -> Vec<String> {
     let mut advice: Vec<&str> = Vec::new();
     for (speed, bearing) in machine.bearings() {
         let outcome = bearing.cycle.orbit.outcome;
-        if outcome == Outcome::Converged || bearing.is_missing() {
+        if outcome == Outcome::Converged || bearing.is_missing() || is_closed(bearing, plan) {
             continue;
         }
         told.push(format!(
@@ -181,8 +182,16 @@ fn messages(machine: &MachineResults, analysis: &str) -> Vec<String> {
         ));
     }
     messages.extend(advice.into_iter().map(str::to_owned));
-    messages.extend(beyond_the_physics(machine));
+    messages.extend(beyond_the_physics(machine, plan));
     messages
+}
+
+/// The orbit itself closed: a note says what else did not converge.
+fn is_closed(bearing: &BearingResults, plan: &MachinePlan) -> bool {
+    let cycle = &bearing.cycle;
+    cycle.orbit.outcome == Outcome::NotConverged
+        && cycle.orbit.closure <= plan.orbit.closure_tolerance
+        && cycle.not_converged().next().is_none()
 }
 
 /// Where and how an orbit failed.
@@ -216,41 +225,57 @@ fn how_it_ended(bearing: &BearingResults) -> String {
     }
 }
 
-/// Results that smooth rigid surfaces or a laminar film do not stand for: of each bearing the worst
+/// Results that smooth rigid surfaces, a laminar film or an oil do not stand for: of each bearing the worst
 /// speed.
-fn beyond_the_physics(machine: &MachineResults) -> Vec<String> {
+fn beyond_the_physics(machine: &MachineResults, plan: &MachinePlan) -> Vec<String> {
     let bearings = machine
         .speeds
         .first()
         .map_or(0, |first| first.bearings.len());
-    let worst = |index: usize, value: &dyn Fn(&CycleResults) -> Option<f64>| {
+    let worst = |index: usize, value: &dyn Fn(&BearingResults) -> Option<f64>| {
         let at = machine.speeds.iter().filter_map(move |speed| {
             let bearing = speed.bearings.get(index)?;
-            let value = value(&bearing.cycle).filter(|value| value.is_finite())?;
+            let value = value(bearing).filter(|value| value.is_finite())?;
             Some((speed.place(bearing), value))
         });
         at.reduce(|best, next| if next.1 > best.1 { next } else { best })
     };
+    let hot_film = |what, temperature| {
+        let hottest = Hottest { what, temperature };
+        sanity::hot_film(&hottest, &plan.lubricant, &plan.heat)
+    };
     let mut messages = Vec::new();
     for index in 0..bearings {
-        let thinnest = worst(index, &|cycle| {
-            let point = cycle.minimum_film_thickness()?;
+        let thinnest = worst(index, &|bearing| {
+            let point = bearing.cycle.minimum_film_thickness()?;
             Some(-point.summary.minimum_film_thickness.value)
         });
-        let peak = worst(index, &|cycle| {
-            let point = cycle.peak_film_pressure()?;
+        let peak = worst(index, &|bearing| {
+            let point = bearing.cycle.peak_film_pressure()?;
             Some(point.summary.peak_film_pressure.value)
         });
-        let fastest = worst(index, &|cycle| {
-            Some(FlowRegime::of_cycle(cycle)?.reynolds_number)
+        let fastest = worst(index, &|bearing| {
+            Some(FlowRegime::of_cycle(&bearing.cycle)?.reynolds_number)
         });
-        let thinnest = thinnest.and_then(|(place, film)| Some((place, sanity::thin_film(-film)?)));
+        let hottest = worst(index, &|bearing| {
+            Some(Hottest::of(bearing.heat.as_ref()?).temperature)
+        });
+        let cycle = &machine.speeds[0].bearings[index].cycle;
+        let knows_contact = cycle.bearing.finish.has_contact();
+        let thinnest = thinnest
+            .filter(|_| !knows_contact)
+            .and_then(|(place, film)| Some((place, sanity::thin_film(-film)?)));
         let peak = peak.and_then(|(place, peak)| Some((place, sanity::high_pressure(peak)?)));
-        let bearing = &machine.speeds[0].bearings[index].cycle.bearing;
-        let fastest = fastest
-            .and_then(|(place, number)| Some((place, FlowRegime::of(bearing, number)?.warning()?)));
-        let found = [thinnest, peak, fastest].into_iter().flatten();
+        let fastest = fastest.and_then(|(place, number)| {
+            Some((place, FlowRegime::of(&cycle.bearing, number)?.warning()?))
+        });
+        let hottest =
+            hottest.and_then(|(place, at)| Some((place, hot_film(Hottest::EFFECTIVE, at)?)));
+        let found = [thinnest, peak, fastest, hottest].into_iter().flatten();
         messages.extend(found.map(|(place, text)| format!("{place}: {text}")));
+    }
+    if plan.heat == HeatPlan::Given {
+        messages.extend(hot_film(Hottest::GIVEN, plan.temperature));
     }
     messages
 }

@@ -11,7 +11,7 @@ use sommerfeld_bearing::LoadCycle;
 use sommerfeld_engine::{PinBalance, PinSpeed};
 
 /// Turns of orbits and balance at most.
-const LARGEST_PASSES: usize = 8;
+const LARGEST_PASSES: usize = 16;
 /// The torques cancel when less of them is left, over the largest torque.
 const TOLERANCE: f64 = 0.01;
 
@@ -25,10 +25,11 @@ pub(super) fn solve_pin(
     let at = &work.speeds[speed];
     let mut cycles = films.map(|film| at.cycles[film].clone());
     let mut pass = 0;
+    let mut before: Option<PinBalance> = None;
     loop {
         let mut share = |film: usize, event: ProgressEvent| {
-            // Most pins settle in half of the passes allowed.
-            let expected = (LARGEST_PASSES / 2).max(pass + 1) as f64;
+            // Most pins settle in a quarter of the passes allowed.
+            let expected = (LARGEST_PASSES / 4).max(pass + 1) as f64;
             let done = (pass as f64 + 0.5 * (film as f64 + event.done)) / expected;
             progress(ProgressEvent { done, ..event })
         };
@@ -36,7 +37,11 @@ pub(super) fn solve_pin(
         let mut in_rod = solve_alone(work, speed, films[0], rod, &mut |event| share(0, event))?;
         let mut in_boss = solve_alone(work, speed, films[1], boss, &mut |event| share(1, event))?;
         pass += 1;
-        let Some(balance) = PinBalance::of(&in_rod.orbit, &in_boss.orbit) else {
+        let balance = match &before {
+            None => PinBalance::of(&in_rod.orbit, &in_boss.orbit),
+            Some(before) => before.after(&in_rod.orbit, &in_boss.orbit),
+        };
+        let Some(balance) = balance else {
             return Ok(vec![in_rod, in_boss]);
         };
         if balance.residual < TOLERANCE {
@@ -45,7 +50,7 @@ pub(super) fn solve_pin(
         if pass == LARGEST_PASSES {
             let note = format!(
                 "{}: not converged, {:.1} % of the friction torque on the floating pin is not balanced \
-                 after {pass} passes",
+                 after {pass} passes; engine.pin_speed_share gives the pin a speed instead",
                 work.place(speed, films[0]),
                 100.0 * balance.residual
             );
@@ -54,7 +59,8 @@ pub(super) fn solve_pin(
             in_boss.mark_not_converged();
             return Ok(vec![in_rod, in_boss]);
         }
-        set_pin_speeds(&mut cycles, &PinSpeed::Tables(vec![balance.speeds]));
+        set_pin_speeds(&mut cycles, &PinSpeed::Tables(vec![balance.speeds.clone()]));
+        before = Some(balance);
     }
 }
 
