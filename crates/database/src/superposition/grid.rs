@@ -394,3 +394,32 @@ impl Reach {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::superposition::SuperpositionRecipe;
+
+    #[test]
+    fn a_spot_turned_round_is_that_of_the_tilt_turned_round() {
+        let places = Places::of(&SuperpositionRecipe::tilted(2.0).axes().unwrap());
+        for (eps, along, across) in [(0.3, 0.2, 0.4), (0.05, -0.3, -0.6), (0.8, 0.01, 0.0)] {
+            let found = Spot::new(&places, eps, [along, across]).mirrored(&places);
+            let expected = Spot::new(&places, eps, [along, -across]);
+            assert_eq!((found.eps, found.tilts), (expected.eps, expected.tilts));
+            assert!((found.size - expected.size).abs() < 1e-15);
+            for (a, b) in found.reach.iter().zip(&expected.reach) {
+                assert_eq!(a.first, b.first);
+                for k in 0..4 {
+                    assert!((a.value[k] - b.value[k]).abs() < 1e-12);
+                    assert!((a.slope[k] - b.slope[k]).abs() < 1e-10);
+                }
+            }
+            let slopes = found.slopes.as_flattened().iter();
+            for (a, b) in slopes.zip(expected.slopes.as_flattened()) {
+                assert!((a - b).abs() < 1e-12, "{a} {b}");
+            }
+        }
+    }
+}

@@ -190,7 +190,7 @@ impl SuperpositionTable {
 fn moved(path: &Path, name: &str) -> DatabaseError {
     DatabaseError::Contents {
         path: path.to_owned(),
-        reason: format!("its nodes ({name}) are those of another version: build it again"),
+        reason: format!("its nodes ({name}) are those of another version"),
     }
 }
 
