@@ -6,7 +6,7 @@ use sommerfeld_database::contents::Contents;
 use sommerfeld_database::superposition::{
     Drive, SuperpositionFilm, SuperpositionRecipe, SuperpositionTable, tilt_box,
 };
-use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
+use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_graded};
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Elasticity, Ends, Feed, FilmForce, FilmShear, FilmSolver,
     Finish, Inlet, JournalState, Outcome, Shape, Step,
@@ -93,7 +93,7 @@ fn look_up_time(table: &SuperpositionTable) -> f64 {
     start.elapsed().as_secs_f64() / f64::from(COUNT)
 }
 
-/// The wedge near the centre, on a coarse grid; little around it.
+/// The wedge near the centre; little around it.
 fn centred() -> &'static Arc<SuperpositionTable> {
     static TABLE: OnceLock<Arc<SuperpositionTable>> = OnceLock::new();
     TABLE.get_or_init(|| {
@@ -103,7 +103,8 @@ fn centred() -> &'static Arc<SuperpositionTable> {
             tilt_nodes: [5, 5],
             largest_shares: [0.4, 0.4],
             centre_nodes: [7, 14],
-            grid: [64, 16],
+            // Cells of 64 x 16 err by 3 % where the tilt is twenty times the eccentricity.
+            grid: [96, 24],
             samples: 0,
             ..SuperpositionRecipe::tilted(2.0)
         })
@@ -262,12 +263,13 @@ fn butenschoen() {
     assert!(count > 120, "{count}");
 }
 
-/// Near the centre the wedge of tilted journals within 0.5 % of films solved on other grids: of any ratio of
-/// tilt to eccentricity, down to none.
+/// Near the centre the wedge of tilted journals within 0.3 % of films solved on finer grids, from no tilt to four
+/// times the eccentricity; at ten times, where two films begin to become one, within 1 %.
 #[test]
 fn near_the_centre() {
     let table = centred();
-    let mut worst = [0.0_f64; 2];
+    // Of force and moment, by whether the tilt is ten times the eccentricity.
+    let mut worst = [[0.0_f64; 2]; 2];
     for (k, size) in [0.001, 0.01, 0.05, 0.13, 0.2, 0.29].into_iter().enumerate() {
         for ray in 0..5 {
             let turn = 0.3 * k as f64 + 1.2566 * f64::from(ray);
@@ -276,11 +278,13 @@ fn near_the_centre() {
             let (eps, tilts) = (size * height, [side * turn.cos(), side * turn.sin()]);
             let off = off_near_the_centre(table, eps, tilts);
             println!("{size} {height} {ray}: {off:.4?}");
-            worst = [worst[0].max(off[0]), worst[1].max(off[1])];
+            let worst = &mut worst[usize::from(height < 0.2)];
+            *worst = [worst[0].max(off[0]), worst[1].max(off[1])];
         }
     }
     println!("worst {worst:?}");
-    assert!(worst[0].max(worst[1]) < 0.005, "{worst:?}");
+    assert!(worst[0][0].max(worst[0][1]) < 0.003, "{worst:?}");
+    assert!(worst[1][0].max(worst[1][1]) < 0.01, "{worst:?}");
 }
 
 /// Errors of force and moment of the wedge against a film solved on another grid.
@@ -295,7 +299,7 @@ fn off_near_the_centre(table: &SuperpositionTable, eps: f64, tilts: [f64; 2]) ->
         cavitation: Cavitation::Reynolds,
         inlet: Inlet::Cyclic,
     };
-    let direct = solve_dimensionless(&film, [96, 32]).unwrap().integrals;
+    let direct = solve_graded(&film, [160, 40]).unwrap().integrals;
     let found = table.lookup(Drive::Wedge, eps, tilts).integrals;
     let [f1, f2, m1, m2] = found.map(|value| eps * value);
     let force = direct.p_cos.hypot(direct.p_sin);
@@ -306,8 +310,8 @@ fn off_near_the_centre(table: &SuperpositionTable, eps: f64, tilts: [f64; 2]) ->
     ]
 }
 
-/// Where the tilt is twenty times the eccentricity, two films apart become one: within 2 %, which directions that do
-/// not spread the eccentricity miss by half as much again.
+/// Where the tilt is twenty times the eccentricity: within 1 %; directions that do not spread the eccentricity err by
+/// 3 % there.
 #[test]
 fn tilts_far_larger_than_the_eccentricity() {
     let mut worst = 0.0_f64;
@@ -325,7 +329,7 @@ fn tilts_far_larger_than_the_eccentricity() {
         println!("{size} {turn}: {off:.4?}");
         worst = worst.max(off[0]).max(off[1]);
     }
-    assert!(worst < 0.02, "{worst}");
+    assert!(worst < 0.01, "{worst}");
 }
 
 /// The peak of the summary is that of the wedge and that of the squeeze, each times its speed.
