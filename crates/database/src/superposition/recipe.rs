@@ -65,7 +65,7 @@ impl SuperpositionRecipe {
             smallest_eccentricity: 0.01,
             samples: 1000,
             seed: 1,
-            target: 3e-2,
+            target: 2e-2,
             most_films: 60_000,
         }
     }
