@@ -13,7 +13,13 @@ pub enum Spacing {
     Atanh,
     /// `ln(value)`.
     Logarithmic,
+    /// `ln((value + 1/20)/(1 - value))`: even in the logarithm of what is left towards 1 and of the value itself down
+    /// to about 1/20, below which it is even in the value.
+    ShiftedLogit,
 }
+
+/// Shift of [`Spacing::ShiftedLogit`].
+const SHIFT: f64 = 0.05;
 
 impl Spacing {
     /// Coordinate of a value.
@@ -24,6 +30,7 @@ impl Spacing {
             // One logarithm: exact enough, as places are sums with the node's number.
             Self::Atanh => 0.5 * ((1.0 + value) / (1.0 - value)).ln(),
             Self::Logarithmic => value.ln(),
+            Self::ShiftedLogit => ((value + SHIFT) / (1.0 - value)).ln(),
         }
     }
 
@@ -34,6 +41,7 @@ impl Spacing {
             Self::Linear => coordinate,
             Self::Atanh => coordinate.tanh(),
             Self::Logarithmic => coordinate.exp(),
+            Self::ShiftedLogit => 1.0 - (1.0 + SHIFT) / (1.0 + coordinate.exp()),
         }
     }
 
@@ -44,6 +52,7 @@ impl Spacing {
             Self::Linear => 1.0,
             Self::Atanh => 1.0 / ((1.0 - value) * (1.0 + value)),
             Self::Logarithmic => 1.0 / value,
+            Self::ShiftedLogit => (1.0 + SHIFT) / ((value + SHIFT) * (1.0 - value)),
         }
     }
 
@@ -54,6 +63,7 @@ impl Spacing {
             Self::Linear => "linear",
             Self::Atanh => "atanh",
             Self::Logarithmic => "logarithmic",
+            Self::ShiftedLogit => "shifted-logit",
         }
     }
 }
@@ -220,6 +230,7 @@ mod tests {
             (Spacing::Linear, -1.0, 1.0),
             (Spacing::Atanh, 0.0, 0.999),
             (Spacing::Logarithmic, 0.2, 2.0),
+            (Spacing::ShiftedLogit, 0.0, 0.99),
         ] {
             let axis = Axis::new("axis", spacing, low, high, 9).unwrap();
             for (index, value) in axis.values().into_iter().enumerate() {

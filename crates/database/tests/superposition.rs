@@ -2,10 +2,11 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use sommerfeld_database::DatabaseError;
+use sommerfeld_database::contents::Contents;
 use sommerfeld_database::superposition::{
     Drive, SuperpositionFilm, SuperpositionRecipe, SuperpositionTable, tilt_box,
 };
-use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_dimensionless};
+use sommerfeld_film::dimensionless::{DimensionlessFilm, solve_graded};
 use sommerfeld_film::{
     Bearing, Cavitation, Conditions, Elasticity, Ends, Feed, FilmForce, FilmShear, FilmSolver,
     Finish, Inlet, JournalState, Outcome, Shape, Step,
@@ -92,7 +93,7 @@ fn look_up_time(table: &SuperpositionTable) -> f64 {
     start.elapsed().as_secs_f64() / f64::from(COUNT)
 }
 
-/// The wedge near the centre, on a coarse grid; little around it.
+/// The wedge near the centre; little around it.
 fn centred() -> &'static Arc<SuperpositionTable> {
     static TABLE: OnceLock<Arc<SuperpositionTable>> = OnceLock::new();
     TABLE.get_or_init(|| {
@@ -102,7 +103,8 @@ fn centred() -> &'static Arc<SuperpositionTable> {
             tilt_nodes: [5, 5],
             largest_shares: [0.4, 0.4],
             centre_nodes: [7, 14],
-            grid: [64, 16],
+            // Cells of 64 x 16 err by 3 % where the tilt is twenty times the eccentricity.
+            grid: [96, 24],
             samples: 0,
             ..SuperpositionRecipe::tilted(2.0)
         })
@@ -261,43 +263,93 @@ fn butenschoen() {
     assert!(count > 120, "{count}");
 }
 
-/// Near the centre the wedge of tilted journals within 0.5 % of films solved on other grids: of any ratio of
-/// tilt to eccentricity, down to none.
+/// Near the centre the wedge of tilted journals within 0.3 % of films solved on finer grids, from no tilt to four
+/// times the eccentricity; at ten times, where two films begin to become one, within 1 %.
 #[test]
 fn near_the_centre() {
     let table = centred();
-    let mut worst = [0.0_f64; 2];
+    // Of force and moment, by whether the tilt is ten times the eccentricity.
+    let mut worst = [[0.0_f64; 2]; 2];
     for (k, size) in [0.001, 0.01, 0.05, 0.13, 0.2, 0.29].into_iter().enumerate() {
         for ray in 0..5 {
             let turn = 0.3 * k as f64 + 1.2566 * f64::from(ray);
             let height = [1.0, 0.8, 0.5, 0.25, 0.1][(ray as usize + k) % 5];
             let side = size * f64::sqrt(1.0 - height * height);
             let (eps, tilts) = (size * height, [side * turn.cos(), side * turn.sin()]);
-            let film = DimensionlessFilm {
-                d_over_b: 2.0,
-                relative_eccentricity: eps,
-                tilt_gamma: tilts[0] / (1.0 - eps),
-                tilt_delta: tilts[1],
-                wedge: 1.0,
-                squeeze: 0.0,
-                cavitation: Cavitation::Reynolds,
-                inlet: Inlet::Cyclic,
-            };
-            let direct = solve_dimensionless(&film, [96, 32]).unwrap().integrals;
-            let found = table.lookup(Drive::Wedge, eps, tilts).integrals;
-            let [f1, f2, m1, m2] = found.map(|value| eps * value);
-            let force = direct.p_cos.hypot(direct.p_sin);
-            let moment = direct.p_z_cos.hypot(direct.p_z_sin).max(0.1 * force);
-            let off = [
-                (f1 - direct.p_cos).hypot(f2 - direct.p_sin) / force,
-                (m1 - direct.p_z_cos).hypot(m2 - direct.p_z_sin) / moment,
-            ];
+            let off = off_near_the_centre(table, eps, tilts);
             println!("{size} {height} {ray}: {off:.4?}");
-            worst = [worst[0].max(off[0]), worst[1].max(off[1])];
+            let worst = &mut worst[usize::from(height < 0.2)];
+            *worst = [worst[0].max(off[0]), worst[1].max(off[1])];
         }
     }
     println!("worst {worst:?}");
-    assert!(worst[0].max(worst[1]) < 0.005, "{worst:?}");
+    assert!(worst[0][0].max(worst[0][1]) < 0.003, "{worst:?}");
+    assert!(worst[1][0].max(worst[1][1]) < 0.01, "{worst:?}");
+}
+
+/// Errors of force and moment of the wedge against a film solved on another grid.
+fn off_near_the_centre(table: &SuperpositionTable, eps: f64, tilts: [f64; 2]) -> [f64; 2] {
+    let film = DimensionlessFilm {
+        d_over_b: 2.0,
+        relative_eccentricity: eps,
+        tilt_gamma: tilts[0] / (1.0 - eps),
+        tilt_delta: tilts[1],
+        wedge: 1.0,
+        squeeze: 0.0,
+        cavitation: Cavitation::Reynolds,
+        inlet: Inlet::Cyclic,
+    };
+    let direct = solve_graded(&film, [160, 40]).unwrap().integrals;
+    let found = table.lookup(Drive::Wedge, eps, tilts).integrals;
+    let [f1, f2, m1, m2] = found.map(|value| eps * value);
+    let force = direct.p_cos.hypot(direct.p_sin);
+    let moment = direct.p_z_cos.hypot(direct.p_z_sin).max(0.1 * force);
+    [
+        (f1 - direct.p_cos).hypot(f2 - direct.p_sin) / force,
+        (m1 - direct.p_z_cos).hypot(m2 - direct.p_z_sin) / moment,
+    ]
+}
+
+/// Where the tilt is twenty times the eccentricity: within 1 %; directions that do not spread the eccentricity err by
+/// 3 % there.
+#[test]
+fn tilts_far_larger_than_the_eccentricity() {
+    let mut worst = 0.0_f64;
+    for (size, turn) in [
+        (0.05, 0.4),
+        (0.13, 1.5),
+        (0.2, 2.6),
+        (0.29, 3.7),
+        (0.38, 5.0),
+    ] {
+        let height = 0.05;
+        let side = size * f64::sqrt(1.0 - height * height);
+        let tilts = [side * f64::cos(turn), side * f64::sin(turn)];
+        let off = off_near_the_centre(centred(), size * height, tilts);
+        println!("{size} {turn}: {off:.4?}");
+        worst = worst.max(off[0]).max(off[1]);
+    }
+    assert!(worst < 0.01, "{worst}");
+}
+
+/// The peak of the summary is that of the wedge and that of the squeeze, each times its speed.
+#[test]
+fn the_peak_is_the_sum_of_both() {
+    let mut film = SuperpositionFilm::new(tilted().clone(), &bearing(2.0), VISCOSITY).unwrap();
+    for speed in [200.0, -200.0] {
+        let state = state(0, 1e-3, 0.0, speed, [3e-4, 2e-4]);
+        film.linearise(&state, Step::Steady, &CONDITIONS).unwrap();
+        let per_tilt = 0.5 * 0.036 / 36e-6;
+        let tilts = [-2e-4 * per_tilt, 3e-4 * per_tilt];
+        let sense = f64::signum(speed);
+        let wedge = tilted().lookup(Drive::Wedge, 0.32, [tilts[0], sense * tilts[1]]);
+        let squeeze = tilted().lookup(Drive::Rising, 0.32, tilts);
+        let psi: f64 = 1e-3;
+        let expected = 0.32 * 1.2 * 200.0 * wedge.peak + 1e-3 / 36e-6 * squeeze.peak;
+        let expected = expected * VISCOSITY / (psi * psi);
+        let found = film.summary().peak_film_pressure.value;
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
 }
 
 /// The tables' own derivatives are those of their central differences, near the centre and where its curves
@@ -537,6 +589,18 @@ fn stopped_and_resumed_it_is_the_same() {
     let read = SuperpositionTable::read(&path).unwrap();
     assert_eq!(read.recipe(), &recipe);
     assert_eq!(read.accuracy(), whole.accuracy());
+    // One whose nodes stand elsewhere is of another version.
+    for name in ["eccentricity", "centre_D"] {
+        let mut contents = Contents::read(&path, "superposition").unwrap();
+        contents.arrays.get_mut(name).unwrap().values[0] += 1e-6;
+        let moved = directory.path().join("moved.h5");
+        contents.write(&moved, "superposition").unwrap();
+        let error = SuperpositionTable::read(&moved).unwrap_err().to_string();
+        assert!(
+            error.contains(name) && error.contains("another version"),
+            "{error}"
+        );
+    }
     for drive in Drive::ALL {
         assert!(read.accuracy()[drive as usize].node_error > 0.0);
         let state = (0.37, [0.11, -0.05]);

@@ -22,10 +22,10 @@ pub fn info(path: &Path) -> Result<String, DatabaseError> {
             Value::Text(text) => text.clone(),
             Value::Integer(number) => number.to_string(),
             Value::Number(number) => shortest(*number),
-            Value::Numbers(all) => {
+            Value::Numbers(all) => told(name, all).unwrap_or_else(|| {
                 let all: Vec<String> = all.iter().copied().map(shortest).collect();
                 all.join(", ")
-            }
+            }),
         };
         // Writing into a String cannot fail.
         let _ = writeln!(text, "  {name:<28} {shown}");
@@ -46,6 +46,23 @@ pub fn info(path: &Path) -> Result<String, DatabaseError> {
         );
     }
     Ok(text)
+}
+
+/// Numbers that mean nothing without their names: the errors of a drive of a superposition and the state that errs
+/// most.
+fn told(name: &str, numbers: &[f64]) -> Option<String> {
+    match *numbers {
+        [samples, largest, of_999, median, nodes] if name.starts_with("accuracy_") => {
+            Some(format!(
+                "{largest:.2e} largest, {of_999:.2e} of 99.9 %, {median:.2e} median of {samples} samples, \
+             {nodes:.2e} of the nodes before they are extrapolated"
+            ))
+        }
+        [eccentricity, along, across] if name.starts_with("worst_") => Some(format!(
+            "eccentricity {eccentricity:.4}, tilt along {along:.4} and across {across:.4}"
+        )),
+        _ => None,
+    }
 }
 
 fn shortest(number: f64) -> String {
@@ -221,10 +238,10 @@ impl Scales {
     }
 }
 
-/// What a database says of a state, as names, values and units.
+/// What a database says of a state, as names, values and units; what its scheme stores.
 #[must_use]
 pub fn answer_rows(found: &LookedUp) -> Vec<(&'static str, f64, &'static str)> {
-    vec![
+    stored_rows(vec![
         ("force_along", found.force[0], "-"),
         ("force_across", found.force[1], "-"),
         ("force_along_by_eccentricity", found.by_eccentricity[0], "-"),
@@ -241,7 +258,14 @@ pub fn answer_rows(found: &LookedUp) -> Vec<(&'static str, f64, &'static str)> {
         ("peak_angle", found.peak_angle.to_degrees(), "deg"),
         ("side_flow_each_end", found.side_flow, "-"),
         ("full_film_share", found.full_film_share, "-"),
-    ]
+    ])
+}
+
+fn stored_rows(
+    mut rows: Vec<(&'static str, f64, &'static str)>,
+) -> Vec<(&'static str, f64, &'static str)> {
+    rows.retain(|(_, value, _)| !value.is_nan());
+    rows
 }
 
 /// The same in SI, for a bearing of these sizes at this eccentricity.
@@ -268,7 +292,7 @@ pub fn dimensional_rows(
         let turned = [-unit[1], unit[0]];
         -per_velocity * (found.force[row] * unit[column] + found.by_angle[row] * turned[column])
     };
-    vec![
+    stored_rows(vec![
         ("force_along", force * found.force[0], "N"),
         ("force_across", force * found.force[1], "N"),
         ("damping_along_along", damping(0, 0), "N s/m"),
@@ -283,7 +307,7 @@ pub fn dimensional_rows(
             speed * radius * scales.width * found.side_flow,
             "m3/s",
         ),
-    ]
+    ])
 }
 
 /// Looks up every row of a table of states (`eccentricity[-],direction[deg]`, and `width_ratio[-]` where
@@ -404,6 +428,15 @@ pub fn beyond(stored: &StoredFilms, state: &State) -> Option<String> {
              stated error",
             facts.last_eccentricity
         ));
+    }
+    if let FilmTable::Superposition(table) = &stored.table {
+        let least = table.recipe().smallest_eccentricity;
+        if state.eccentricity < least {
+            return Some(format!(
+                "the relative eccentricity {} is below {least}, down to which the database states its error",
+                state.eccentricity
+            ));
+        }
     }
     (facts.is_tilted && gap < facts.smallest_gap).then(|| {
         format!(

@@ -318,7 +318,7 @@ pub struct LookedUp {
     pub by_angle: [f64; 2],
     /// Peak pressure over `eta |w| R^2 / c^3`.
     pub peak_pressure: f64,
-    /// Its angle from the narrowest gap, rad.
+    /// Its angle from the narrowest gap, rad. Not a number, as the next two, where the scheme does not store it.
     pub peak_angle: f64,
     /// Oil leaving at each end over `|w| R B`.
     pub side_flow: f64,
@@ -394,14 +394,18 @@ impl StoredFilms {
         let scale = VISCOSITY * bearing.width / (2.0 * CLEARANCE.powi(3));
         let summary = film.summary();
         let (by_position, by_rate) = (seen.tangent.by_position, seen.tangent.by_rate);
+        let of_combined = |value: f64| match self.scheme() {
+            Scheme::Combined => value,
+            Scheme::Superposition => f64::NAN,
+        };
         Ok(LookedUp {
             force: seen.reaction.film_force.map(|force| force / scale),
             by_eccentricity: [0, 1].map(|row| by_position[row][0] * CLEARANCE / scale),
             by_angle: [0, 1].map(|row| (cos * by_rate[row][1] - sin * by_rate[row][0]) / scale),
             peak_pressure: summary.peak_film_pressure.value * CLEARANCE.powi(3) / VISCOSITY,
-            peak_angle: summary.peak_film_pressure.angle,
-            side_flow: summary.side_flow[0] / bearing.width,
-            full_film_share: summary.full_film_share,
+            peak_angle: of_combined(summary.peak_film_pressure.angle),
+            side_flow: of_combined(summary.side_flow[0] / bearing.width),
+            full_film_share: of_combined(summary.full_film_share),
             moment: seen
                 .reaction
                 .film_moment

@@ -24,8 +24,8 @@ pub struct SuperpositionFilm {
     width: f64,
     clearance: f64,
     viscosity: f64,
-    /// The last state with its reaction and peak pressure, for the summary.
-    last: Option<(JournalState, Reaction, f64)>,
+    /// The last state with its reaction, for the summary.
+    last: Option<(JournalState, Reaction)>,
     updates: usize,
 }
 
@@ -158,20 +158,23 @@ impl SuperpositionFilm {
         }
     }
 
-    fn sum(&self, local: &Local) -> Sum {
+    /// `asks_peak`: the sum has the peak, which takes time and which a step's summary alone needs.
+    fn sum(&self, local: &Local, asks_peak: bool) -> Sum {
         let sense = if local.wedge < 0.0 { -1.0 } else { 1.0 };
-        let [along, across] = local.tilts;
         let spot = self.table.spot(local.eps, local.tilts);
-        let wedge = match sense < 0.0 && across != 0.0 {
-            true => (self.table).lookup(Drive::Wedge, local.eps, [along, -across]),
-            false => self.table.at(Drive::Wedge, &spot),
+        let wedge = match sense < 0.0 && local.tilts[1] != 0.0 {
+            true => {
+                let mirrored = self.table.mirrored(&spot);
+                self.table.at(Drive::Wedge, &mirrored, asks_peak)
+            }
+            false => self.table.at(Drive::Wedge, &spot, asks_peak),
         };
         let drive = if local.squeeze < 0.0 {
             Drive::Falling
         } else {
             Drive::Rising
         };
-        let squeeze = self.table.at(drive, &spot);
+        let squeeze = self.table.at(drive, &spot, asks_peak);
         let signs = [1.0, sense, 1.0, sense];
         let (w, s) = (local.wedge.abs(), local.squeeze.abs());
         Sum {
@@ -312,7 +315,7 @@ impl FilmForce for SuperpositionFilm {
         let turned = frame.turn(state);
         let grid_state = frame.to_grid(state, turned);
         let local = self.local(&grid_state);
-        let sum = self.sum(&local);
+        let sum = self.sum(&local, false);
         let slopes = self.slopes(&local, &sum, state.journal_speed + state.shell_speed);
         let mut tangent = Tangent::default();
         for k in 0..5 {
@@ -333,8 +336,7 @@ impl FilmForce for SuperpositionFilm {
         };
         let (reaction, tangent) = frame.from_grid(&grid_state, turned, reaction, tangent);
         let reaction = self.with_friction(state, reaction);
-        let psi = self.clearance / self.radius;
-        self.last = Some((*state, reaction, sum.peak * self.viscosity / (psi * psi)));
+        self.last = Some((*state, reaction));
         self.updates += 1;
         Ok(Linearised {
             reaction,
@@ -345,9 +347,13 @@ impl FilmForce for SuperpositionFilm {
     }
 
     fn summary(&self) -> FilmSummary {
-        let Some((state, reaction, peak)) = &self.last else {
+        let Some((state, reaction)) = &self.last else {
             return FilmSummary::default();
         };
+        let frame = Frame::LineOfCentres;
+        let local = self.local(&frame.to_grid(state, frame.turn(state)));
+        let psi = self.clearance / self.radius;
+        let peak = self.sum(&local, true).peak * self.viscosity / (psi * psi);
         let narrowest = self.narrowest(state);
         let edge = |z: f64| {
             let [x, y] = state.centre_at(z);
@@ -359,7 +365,7 @@ impl FilmForce for SuperpositionFilm {
             minimum_film_thickness: narrowest,
             edge_film_thickness: [edge(-0.5 * self.width), edge(0.5 * self.width)],
             peak_film_pressure: Extreme {
-                value: *peak,
+                value: peak,
                 ..narrowest
             },
             friction_power: reaction.friction_torque_journal

@@ -75,13 +75,15 @@ impl Places {
 }
 
 /// Where a state lies: the same for all drives.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     eps: f64,
     /// Tilts along and across.
     tilts: [f64; 2],
     /// Root of the sum of the squares of the three.
     size: f64,
+    /// Share of the transverse tilt.
+    transverse: f64,
     /// Coefficients along the axes.
     reach: [Reach; 3],
     /// Derivatives of both shares by eccentricity, tilt along and tilt across.
@@ -99,12 +101,32 @@ impl Spot {
             eps,
             tilts: [along, across],
             size: (eps * eps + along * along + across * across).sqrt(),
+            transverse: tilt.shares[1],
             reach: [
                 places.reach(0, eps),
                 places.reach(1, tilt.shares[0]),
                 places.reach(2, tilt.shares[1]),
             ],
             slopes: tilt.slopes,
+        }
+    }
+
+    /// The same with the transverse tilt turned round: its share is odd in it, the other even.
+    pub(super) fn mirrored(&self, places: &Places) -> Self {
+        let [share, transverse] = self.slopes;
+        Self {
+            tilts: [self.tilts[0], -self.tilts[1]],
+            transverse: -self.transverse,
+            reach: [
+                self.reach[0],
+                self.reach[1],
+                places.reach(2, -self.transverse),
+            ],
+            slopes: [
+                [share[0], share[1], -share[2]],
+                [-transverse[0], -transverse[1], transverse[2]],
+            ],
+            ..*self
         }
     }
 }
@@ -117,7 +139,7 @@ pub struct Looked {
     pub integrals: [f64; 4],
     /// Their derivatives.
     pub slopes: [[f64; 3]; 4],
-    /// Largest `Pi`; of the wedge over eps.
+    /// Largest `Pi`; of the wedge over eps. 0 where it was not asked for.
     pub peak: f64,
 }
 
@@ -214,9 +236,10 @@ impl Fitted {
         })
     }
 
-    /// Integrals and their derivatives; see [`super::SuperpositionTable::lookup`].
-    pub(super) fn lookup(&self, spot: &Spot) -> Looked {
-        let parts = self.parts(spot);
+    /// Integrals and their derivatives, and the peak where it is asked for; see
+    /// [`super::SuperpositionTable::lookup`].
+    pub(super) fn lookup(&self, spot: &Spot, asks_peak: bool) -> Looked {
+        let parts = self.parts(spot, asks_peak);
         let [inverse, inverse_slope] = match self.first_of_wedge {
             Some(first) => inverse_from(first, spot.eps),
             None => [1.0, 0.0],
@@ -235,24 +258,24 @@ impl Fitted {
     }
 
     /// Near the centre the curves of a wedge over its direction, far from it those over the axes.
-    fn parts(&self, spot: &Spot) -> Parts {
+    fn parts(&self, spot: &Spot, asks_peak: bool) -> Parts {
         let Some(centre) = &self.centre else {
-            return self.of_axes(spot);
+            return self.of_axes(spot, asks_peak);
         };
         let [share, slope] = Centre::share_of_table(spot.size);
         if share >= 1.0 {
-            return self.of_axes(spot);
+            return self.of_axes(spot, asks_peak);
         }
-        let near = centre.lookup(spot.eps, spot.tilts, spot.size);
+        let near = centre.lookup(spot.eps, spot.tilts, spot.size, asks_peak);
         if share <= 0.0 {
             return near;
         }
         let per_size = slope / spot.size;
         let by = [spot.eps, spot.tilts[0], spot.tilts[1]].map(|own| per_size * own);
-        near.towards(&self.of_axes(spot), share, by)
+        near.towards(&self.of_axes(spot, asks_peak), share, by)
     }
 
-    fn of_axes(&self, spot: &Spot) -> Parts {
+    fn of_axes(&self, spot: &Spot, asks_peak: bool) -> Parts {
         let (lanes, by_share) = self.sum(&spot.reach);
         // By eccentricity at fixed tilts, the shares move too.
         let [share, transverse] = spot.slopes;
@@ -272,7 +295,10 @@ impl Fitted {
             slopes: std::array::from_fn(|k| {
                 std::array::from_fn(|which| size * slope(k + 1, which) + own(k) * of_size[which])
             }),
-            peak: size * lanes[5].exp() * drive,
+            peak: match asks_peak {
+                true => size * lanes[5].exp() * drive,
+                false => 0.0,
+            },
         }
     }
 
@@ -287,11 +313,11 @@ impl Fitted {
                 let row = ((e.first + i) * n_share + u.first + j) * n_transverse + d.first;
                 let (nodes, _) =
                     self.coefficients[row * LANES..(row + d.count) * LANES].as_chunks::<LANES>();
-                let (mut line, mut rise) = ([0.0; LANES], [0.0; LANES]);
-                for ((node, value), slope) in nodes.iter().zip(&d.value).zip(&d.slope) {
-                    add(&mut line, *value, node);
-                    add(&mut rise, *slope, node);
-                }
+                // Of four nodes the compiler keeps both sums in registers.
+                let [line, rise] = match <&[[f64; LANES]; 4]>::try_from(nodes) {
+                    Ok(four) => along_line(four.as_slice(), d),
+                    Err(_) => along_line(nodes, d),
+                };
                 add(&mut plane, u.value[j], &line);
                 add(&mut by_share, u.slope[j], &line);
                 add(&mut by_transverse, u.value[j], &rise);
@@ -303,6 +329,17 @@ impl Fitted {
         }
         (value, slopes)
     }
+}
+
+/// Value and derivative along the last axis.
+#[inline(always)]
+fn along_line(nodes: &[[f64; LANES]], d: &Reach) -> [[f64; LANES]; 2] {
+    let (mut line, mut rise) = ([0.0; LANES], [0.0; LANES]);
+    for ((node, value), slope) in nodes.iter().zip(&d.value).zip(&d.slope) {
+        add(&mut line, *value, node);
+        add(&mut rise, *slope, node);
+    }
+    [line, rise]
 }
 
 #[inline(always)]
@@ -326,7 +363,7 @@ fn inverse_from(first: f64, eps: f64) -> [f64; 2] {
 }
 
 /// Coefficients that a value reaches along one axis, with their weights.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Reach {
     pub first: usize,
     count: usize,
@@ -354,6 +391,35 @@ impl Reach {
             count: 4,
             value: std::array::from_fn(|k| found.value[k] + beyond * found.slope[k]),
             slope: found.slope.map(|weight| weight * per_value),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::superposition::SuperpositionRecipe;
+
+    #[test]
+    fn a_spot_turned_round_is_that_of_the_tilt_turned_round() {
+        let places = Places::of(&SuperpositionRecipe::tilted(2.0).axes().unwrap());
+        for (eps, along, across) in [(0.3, 0.2, 0.4), (0.05, -0.3, -0.6), (0.8, 0.01, 0.0)] {
+            let found = Spot::new(&places, eps, [along, across]).mirrored(&places);
+            let expected = Spot::new(&places, eps, [along, -across]);
+            assert_eq!((found.eps, found.tilts), (expected.eps, expected.tilts));
+            assert!((found.size - expected.size).abs() < 1e-15);
+            for (a, b) in found.reach.iter().zip(&expected.reach) {
+                assert_eq!(a.first, b.first);
+                for k in 0..4 {
+                    assert!((a.value[k] - b.value[k]).abs() < 1e-12);
+                    assert!((a.slope[k] - b.slope[k]).abs() < 1e-10);
+                }
+            }
+            let slopes = found.slopes.as_flattened().iter();
+            for (a, b) in slopes.zip(expected.slopes.as_flattened()) {
+                assert!((a - b).abs() < 1e-12, "{a} {b}");
+            }
         }
     }
 }

@@ -164,7 +164,8 @@ impl SuperpositionTable {
     /// (`gamma (1 - eps)` and `delta`) of an open gap, with their derivatives.
     #[must_use]
     pub fn lookup(&self, drive: Drive, eps: f64, tilts: [f64; 2]) -> Looked {
-        self.at(drive, &self.spot(eps, tilts))
+        let asks_peak = true;
+        self.at(drive, &self.spot(eps, tilts), asks_peak)
     }
 
     /// Where a state lies, the same for all drives.
@@ -172,7 +173,12 @@ impl SuperpositionTable {
         Spot::new(&self.places, eps, tilts)
     }
 
-    fn at(&self, drive: Drive, spot: &Spot) -> Looked {
-        self.fitted[drive as usize].lookup(spot)
+    /// The same with the transverse tilt turned round.
+    fn mirrored(&self, spot: &Spot) -> Spot {
+        spot.mirrored(&self.places)
+    }
+
+    fn at(&self, drive: Drive, spot: &Spot, asks_peak: bool) -> Looked {
+        self.fitted[drive as usize].lookup(spot, asks_peak)
     }
 }

@@ -54,7 +54,7 @@ impl SuperpositionRecipe {
         Self {
             d_over_b,
             eccentricities: [0.01, 0.95],
-            eccentricity_nodes: 17,
+            eccentricity_nodes: 21,
             largest_shares: [0.95, 0.85],
             tilt_nodes: [21, 15],
             centre_nodes: [9, 14],
@@ -65,7 +65,7 @@ impl SuperpositionRecipe {
             smallest_eccentricity: 0.01,
             samples: 1000,
             seed: 1,
-            target: 3e-2,
+            target: 2e-2,
             most_films: 60_000,
         }
     }
@@ -167,15 +167,15 @@ impl SuperpositionRecipe {
             }
             Axis::new(key, Spacing::Atanh, -largest, largest, count)
         };
-        let eccentricity = (self.eccentricity_nodes, Spacing::Atanh);
+        // Where both edges are close to contact, the film of a small eccentricity turns within as much of it as is
+        // left of the gap there.
+        let spacing = match self.tilt_nodes {
+            [1, 1] => Spacing::Atanh,
+            _ => Spacing::ShiftedLogit,
+        };
+        let nodes = self.eccentricity_nodes;
         Ok([
-            Axis::new(
-                "eccentricities",
-                eccentricity.1,
-                first,
-                last,
-                eccentricity.0,
-            )?,
+            Axis::new("eccentricities", spacing, first, last, nodes)?,
             tilt("tilt share", 0)?,
             tilt("transverse share", 1)?,
         ])

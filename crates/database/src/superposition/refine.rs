@@ -154,7 +154,9 @@ impl SuperpositionTable {
                     continue;
                 }
                 let factor = if drive == Drive::Wedge { eps } else { 1.0 };
-                let found = fitted.lookup(&Spot::new(&places, eps, tilts)).integrals;
+                let found = fitted
+                    .lookup(&Spot::new(&places, eps, tilts), false)
+                    .integrals;
                 let known = [node[0], node[1], node[2], node[3]];
                 largest = largest.max(error_of(found.map(|value| factor * value), known));
             }

@@ -9,7 +9,7 @@ use sommerfeld_film::{Cavitation, Inlet, Outcome};
 use std::path::{Path, PathBuf};
 
 const SCHEME: &str = "superposition";
-const PARTIAL: &str = "superposition-partial";
+const PARTIAL: &str = "superposition-partial-2";
 
 /// Names of the figures of a node before the letter of the drive, and what they are.
 const NAMES: [(&str, &str); FIGURES] = [
@@ -26,6 +26,19 @@ const NAMES: [(&str, &str); FIGURES] = [
         "Estimated error of the integrals before they are extrapolated, over force and moment",
     ),
 ];
+
+/// Names of the axes, and what they are.
+const AXES: [(&str, &str); 3] = [
+    ("eccentricity", "Relative eccentricity"),
+    (
+        "tilt_share",
+        "Share of the largest tilt in the plane of the narrowest gap",
+    ),
+    ("transverse_share", "Share of the largest transverse tilt"),
+];
+
+/// Difference of two nodes that is of no account.
+const SAME: f64 = 1e-9;
 
 /// Films near the centre.
 const CENTRE: &str = "centre_D";
@@ -45,15 +58,7 @@ impl SuperpositionTable {
         let mut contents = Contents::default();
         note_recipe(&self.recipe, &mut contents);
         let shape = Shape::of(&self.axes);
-        let axes = [
-            ("eccentricity", "Relative eccentricity"),
-            (
-                "tilt_share",
-                "Share of the largest tilt in the plane of the narrowest gap",
-            ),
-            ("transverse_share", "Share of the largest transverse tilt"),
-        ];
-        for ((name, meaning), axis) in axes.into_iter().zip(&self.axes) {
+        for ((name, meaning), axis) in AXES.into_iter().zip(&self.axes) {
             contents.array(name, "1", meaning, &[axis.count()], axis.values());
         }
         let places = (0..shape.nodes()).map(|index| place_of(&self.axes, shape.place(index)));
@@ -129,7 +134,15 @@ impl SuperpositionTable {
     pub fn read(path: &Path) -> Result<Self, DatabaseError> {
         let contents = Contents::read(path, SCHEME)?;
         let recipe = recipe_of(&contents, path)?;
-        let shape = Shape::of(&recipe.axes()?);
+        let axes = recipe.axes()?;
+        let shape = Shape::of(&axes);
+        for (name, axis) in AXES.iter().map(|(name, _)| *name).zip(&axes) {
+            let stored = contents.values(path, name, &[axis.count()])?;
+            let mut pairs = stored.iter().zip(axis.values());
+            if !pairs.all(|(stored, own)| (stored - own).abs() < SAME) {
+                return Err(moved(path, name));
+            }
+        }
         let mut nodes: [Vec<[f64; FIGURES]>; 3] = Default::default();
         let mut accuracy = [Accuracy::default(); 3];
         for (own, drive) in nodes.iter_mut().zip(Drive::ALL) {
@@ -162,7 +175,22 @@ impl SuperpositionTable {
         let centre = (lines.chunks_exact(extents[1]))
             .map(|line| std::array::from_fn(|k| line[3 + k]))
             .collect();
+        let at = centre::states(&recipe).into_iter();
+        let mut pairs = (lines.chunks_exact(extents[1])).zip(at);
+        if !pairs.all(|(line, (eps, [_, across]))| {
+            (line[0] - eps).abs().max((line[2] - across).abs()) < SAME
+        }) {
+            return Err(moved(path, CENTRE));
+        }
         Self::of(recipe, nodes, centre, accuracy)
+    }
+}
+
+/// A database whose nodes stand elsewhere than this version puts them.
+fn moved(path: &Path, name: &str) -> DatabaseError {
+    DatabaseError::Contents {
+        path: path.to_owned(),
+        reason: format!("its nodes ({name}) are those of another version"),
     }
 }
 

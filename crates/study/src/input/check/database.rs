@@ -316,7 +316,7 @@ impl Checker<'_> {
                     false => "aligned journals have one whole number of nodes",
                 };
                 let error = self.error_at(NODES, message);
-                let hint = if is_tilted { "[17, 21, 15]" } else { "25" };
+                let hint = if is_tilted { "[21, 21, 15]" } else { "25" };
                 self.errors
                     .push(error.hinting(format!("for example nodes = {hint}")));
                 None
