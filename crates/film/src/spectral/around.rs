@@ -152,6 +152,8 @@ impl Substitution {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SommerfeldAngle {
     modulus: f64,
+    /// Modulus over relative eccentricity.
+    share: f64,
     /// sqrt(1 - m^2).
     root: f64,
     /// N at cos s = 0 and its slope by cos s.
@@ -164,6 +166,7 @@ impl SommerfeldAngle {
         let modulus = share * eps;
         Self {
             modulus,
+            share,
             root: ((1.0 - modulus) * (1.0 + modulus)).sqrt(),
             gap: [1.0 - eps * modulus, modulus - eps],
         }
@@ -172,6 +175,18 @@ impl SommerfeldAngle {
     /// theta of s, rad.
     pub(super) fn angle(&self, s: f64) -> f64 {
         turned(s, [1.0 - self.modulus, 1.0 + self.modulus])
+    }
+
+    /// Where theta has this cos and sin: dtheta/ds, the changes of its logarithm by s and by relative
+    /// eccentricity at that s, and the change of theta by relative eccentricity there.
+    pub(super) fn rates(&self, [cos, sin]: [f64; 2]) -> (f64, [f64; 2], f64) {
+        let per_root = 1.0 / self.root;
+        let share = self.share * per_root * per_root;
+        (
+            (1.0 - self.modulus * cos) * per_root,
+            [self.modulus * sin * per_root, -share * cos],
+            -share * sin,
+        )
     }
 
     /// s of theta, rad.
