@@ -65,7 +65,7 @@ const CROWDED: f64 = 0.985;
 /// Error of the force over its size that the fronts of a film for tables may leave.
 const UNFELT: f64 = 1e-7;
 /// The same on line, before what the fronts still have to move is accounted for.
-const SETTLED: f64 = 1e-8;
+const SETTLED: f64 = 1e-11;
 
 impl AlignedFilm {
     /// Film of a bearing of this width over diameter, all ends at cavitation pressure, cyclic.
@@ -241,5 +241,7 @@ impl AlignedFilm {
     }
 
     /// TEMPORARY
-    pub fn fallbacks(&self) -> usize { match &self.kernel { Kernel::FittedNarrow(f) => f.fallbacks, Kernel::FittedWide(f) => f.fallbacks, Kernel::FittedWider(f) => f.fallbacks, _ => 0 } }
+    pub fn fallbacks(&self) -> usize { self.counts()[0] }
+    /// TEMPORARY
+    pub fn counts(&self) -> [usize; 3] { match &self.kernel { Kernel::FittedNarrow(f) => [f.fallbacks, f.solves, f.diffs], Kernel::FittedWide(f) => [f.fallbacks, f.solves, f.diffs], Kernel::FittedWider(f) => [f.fallbacks, f.solves, f.diffs], _ => [0; 3] } }
 }

@@ -57,6 +57,8 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     accuracy: Accuracy,
     shapes: Shapes<M, G>,
     element: Element,
+    /// Where elements meet, as a part of the way between the fronts.
+    breaks: Vec<f64>,
     fit: FrontFit<G>,
     matrix: ProfileMatrix<M>,
     /// Right-hand sides for motion along and across, and the answers u, by unknown.
@@ -64,6 +66,7 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     answers: Vec<[f64; 2]>,
     points: Vec<strip::Point>,
     map: SommerfeldAngle,
+    pub(super) online: bool, q: f64,
     /// The state of the last solution.
     eps: f64,
     motion: [f64; 2],
@@ -124,12 +127,14 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             accuracy,
             shapes: Shapes::new(),
             element: Element::new(degree),
+            breaks: breaks(elements),
             fit: FrontFit::new(),
             matrix: ProfileMatrix::new(starts),
             sources: vec![[0.0; 2]; nodes * M],
             answers: vec![[0.0; 2]; nodes * M],
             points: vec![strip::Point::default(); elements * (degree + 1) * G],
-            map: SommerfeldAngle::new(0.0, accuracy.modulus),
+            map: SommerfeldAngle::graded(0.0, env("Q", 0.75)),
+            online: false, q: env("Q", 0.75),
             eps: 0.0,
             motion: [1.0, 0.0],
             fronts: Fronts {
@@ -146,7 +151,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         let rise = eps - self.eps;
         self.eps = eps;
         self.motion = motion;
-        self.map = SommerfeldAngle::new(eps, self.accuracy.modulus);
+        self.map = if std::mem::size_of_val(&self.element) > 0 && self.online { SommerfeldAngle::graded(eps, self.q) } else { SommerfeldAngle::new(eps, self.accuracy.modulus) };
         (rise.abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3).then_some([rise, turn])
     }
 
@@ -165,6 +170,23 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 force[row] * across + by_turn[row] * along,
             ]
         })
+    }
+}
+
+pub(super) fn env(name: &str, or: f64) -> f64 { std::env::var(format!("SOMM_{name}")).ok().and_then(|v| v.parse().ok()).unwrap_or(or) }
+fn breaks(elements: usize) -> Vec<f64> {
+    (0..=elements).map(|e| e as f64 / elements as f64).collect()
+}
+impl<const M: usize, const G: usize> FittedFilm<M, G> {
+    fn grade(&mut self) {
+        self.online = env("Q", 0.75) > 0.0;
+        let n = self.accuracy.elements;
+        let end = env("G", 0.6);
+        let mut sizes = vec![1.0; n];
+        sizes[0] = end; sizes[n - 1] = end;
+        let all: f64 = sizes.iter().sum();
+        let mut at = 0.0;
+        for e in 0..n { at += sizes[e] / all; self.breaks[e + 1] = at; }
     }
 }
 

@@ -69,16 +69,22 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             self.map
                 .of(self.direction() + self.fronts.angles[side][G - 1])
         });
-        let s = ends[0] + place * (ends[1] - ends[0]);
+        let (element, x) = self.element_at(place * self.accuracy.elements as f64);
+        let share = self.breaks[element] + x * self.part(element);
+        let s = ends[0] + share * (ends[1] - ends[0]);
         (at(place), self.map.angle(s))
+    }
+
+    /// Element and place in it, of a place that counts elements.
+    fn element_at(&self, place: f64) -> (usize, f64) {
+        let element = (place as usize).min(self.accuracy.elements - 1);
+        (element, place - element as f64)
     }
 
     /// Pressure in the mid-plane at a share of the way between the fronts.
     fn in_mid_plane(&self, share: f64) -> f64 {
         let degree = self.accuracy.degree;
-        let place = share * self.accuracy.elements as f64;
-        let element = (place as usize).min(self.accuracy.elements - 1);
-        let x = place - element as f64;
+        let (element, x) = self.element_at(share * self.accuracy.elements as f64);
         let nodes = &self.element.nodes;
         let mut sum = 0.0;
         for i in 0..=degree {

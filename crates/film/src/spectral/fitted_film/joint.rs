@@ -36,7 +36,7 @@ pub(in crate::spectral) struct JointFilm<const M: usize, const G: usize, const L
     pub(super) inverse: Rates<L>,
     pub(super) follow: [[f64; 2]; L],
     is_warm: bool,
-    pub(in crate::spectral) fallbacks: usize,
+    pub(in crate::spectral) fallbacks: usize, pub(super) least: f64, pub(super) weights: [f64; G], debug: bool, pub(in crate::spectral) solves: usize, pub(in crate::spectral) diffs: usize,
 }
 
 impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
@@ -45,7 +45,9 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
 
     /// For a film of this D/B.
     pub(in crate::spectral) fn new(d_over_b: f64, accuracy: Accuracy) -> Self {
-        let film = FittedFilm::new(d_over_b, accuracy);
+        let accuracy = Accuracy { elements: super::env("E", accuracy.elements as f64) as usize, degree: super::env("P", accuracy.degree as f64) as usize, tolerance: super::env("TOL", accuracy.tolerance), modulus: super::env("M", accuracy.modulus), };
+        let mut film = FittedFilm::new(d_over_b, accuracy);
+        film.grade();
         Self {
             fields: vec![[0.0; L]; film.answers.len()],
             film,
@@ -55,7 +57,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             inverse: [[0.0; L]; L],
             follow: [[0.0; 2]; L],
             is_warm: false,
-            fallbacks: 0,
+            fallbacks: 0, weights: { let points = crate::spectral::quadrature::gauss_legendre(2 * G); std::array::from_fn(|g| (1.0 - points[g][0] * points[g][0]).powf(super::env("W", 0.0))) }, debug: super::env("DEBUG", 0.0) > 0.0, least: super::env("C", super::moving::LEAST_CHORD), solves: 0, diffs: 0,
         }
     }
 
@@ -122,6 +124,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
 
     /// Solves between the fronts of the present parts; false where the equations are no film's.
     fn solve(&mut self) -> bool {
+        self.solves += 1;
         let film = &mut self.film;
         for (side, parts) in self.parts[BEFORE..].chunks_exact(Self::TERMS).enumerate() {
             [film.fronts.angles[side], film.fronts.slopes[side]] = film.fit.front(parts);
@@ -137,6 +140,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         let terms = Self::TERMS;
         let mut is_close = self.is_warm;
         let mut last = f64::INFINITY;
+        let mut step: Option<[f64; L]> = None;
         for update in 0..MOST_UPDATES {
             if !self.solve() {
                 return false;
@@ -148,7 +152,8 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                 );
                 let change: [f64; L] =
                     std::array::from_fn(|part| parts[part] - self.parts[part]);
-                is_close = self.film.fit.size_of_parts(&change[BEFORE..]) < CLOSE;
+                if self.debug { eprintln!("   lines {update}: {:.2e} parts {:.3?}", self.size(&change), &self.parts[2..]); }
+                is_close = self.size(&change) < CLOSE;
                 if !is_close {
                     self.parts = parts;
                     continue;
@@ -158,7 +163,10 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                 }
             }
             let mut change = self.newton_change();
-            let mut size = self.film.fit.size_of_parts(&change[BEFORE..]);
+            if let Some(step) = &step {
+                self.learn(step, &mut change);
+            }
+            let mut size = self.size(&change);
             if self.film.aspect.max(1.0) * size * size < self.film.accuracy.tolerance {
                 return true;
             }
@@ -167,17 +175,46 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                     return false;
                 }
                 change = self.newton_change();
-                size = self.film.fit.size_of_parts(&change[BEFORE..]);
+                size = self.size(&change);
             }
+            if self.debug { eprintln!("   newton {update}: {size:.2e} last {last:.2e} parts {:.3?}", &self.parts[2..]); }
             if size > FARTHEST || size > last || size.is_nan() {
                 return false;
             }
             for (part, change) in self.parts.iter_mut().zip(change) {
                 *part += change;
             }
-            last = size;
+            (last, step) = (size, Some(change));
         }
         false
+    }
+
+    /// How far a change moves the fronts, rad (mean square).
+    fn size(&self, change: &[f64; L]) -> f64 {
+        self.film.fit.size_of_parts(&change[BEFORE..])
+    }
+
+    /// Betters the inverse by what is left to change after a step, and that change with it: the update of C. G.
+    /// Broyden, Math. Comput. 19 (1965) 577, with `H y = step - change`.
+    fn learn(&mut self, step: &[f64; L], change: &mut [f64; L]) {
+        let product = |a: &[f64; L], b: &[f64; L]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let square = product(step, step);
+        let rest = square - product(step, change);
+        if rest < 0.5 * square {
+            return;
+        }
+        let mut row = [0.0; L];
+        for (part, known) in step.iter().zip(&self.inverse) {
+            for (sum, value) in row.iter_mut().zip(known) {
+                *sum += part * value;
+            }
+        }
+        for (part, known) in change.iter().zip(&mut self.inverse) {
+            for (value, sum) in known.iter_mut().zip(&row) {
+                *value += part * sum / rest;
+            }
+        }
+        *change = change.map(|part| part * square / rest);
     }
 
     /// Lets each line move its fronts by itself until the force no longer feels it.

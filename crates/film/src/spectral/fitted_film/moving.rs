@@ -40,7 +40,7 @@ struct PointRates {
 }
 
 /// Squares of the angle beyond a quarter of a turn that count as none, rad2.
-const LEAST_CHORD: f64 = 1e-3;
+pub(super) const LEAST_CHORD: f64 = 1e-3;
 /// Largest square of the chord to that angle.
 const MOST_CHORD: f64 = 3.9;
 
@@ -63,6 +63,7 @@ fn across([along, across]: [f64; 2]) -> [f64; 2] {
 impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     /// Fills `rates`, the inverse of the fronts' part, and how the fronts follow; false if they do not.
     pub(super) fn differentiate(&mut self) -> bool {
+        self.diffs += 1;
         self.solve_adjoints();
         let mut lines = [LineRates {
             place: [[0.0; L]; 2],
@@ -141,7 +142,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             for g in 0..G {
                 let weight = self.film.fit.weights()[g];
                 let pull = &self.pulls[side][g];
-                let parts = [pull.way, pull.by_flux * dot(pull.fluxes, turned)];
+                let parts = [pull.by_flux * dot(pull.fluxes, self.film.motion), pull.by_flux * dot(pull.fluxes, turned)];
                 for term in 0..terms {
                     let share = weight * self.film.fit.term(term)[0][g];
                     let row = &mut conditions[BEFORE + side * terms + term];
@@ -163,7 +164,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             let mut loads = [[0.0; L]; M];
             for g in 0..G {
                 let point = &self.film.points[(element * (degree + 1) + r) * G + g];
-                let conducts = self.film.accuracy.elements as f64 * point.around * point.gap.powi(3);
+                let conducts = point.around * point.gap.powi(3) / self.film.part(element);
                 let weight = self.film.fit.weights()[g] * self.pulls[side][g].by_flux * conducts;
                 for term in 0..terms {
                     let share = weight * self.film.fit.term(term)[0][g];
@@ -193,15 +194,15 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     /// Collects over all points how the equations change, by line.
     fn walk_fields(&self, lines: &mut [LineRates<L>; G]) {
         let degree = self.film.accuracy.degree;
-        let per_element = 1.0 / self.film.accuracy.elements as f64;
         for element in 0..self.film.accuracy.elements {
+            let part = self.film.part(element);
             for r in 0..=degree {
                 let mut rises = [[0.0; L]; M];
                 for i in 0..=degree {
                     let Some(first) = self.film.unknown(element * degree + i) else {
                         continue;
                     };
-                    let slope = self.film.element.slopes[r][i] * self.film.accuracy.elements as f64;
+                    let slope = self.film.element.slopes[r][i] / part;
                     for (rise, field) in rises.iter_mut().zip(&self.fields[first..first + M]) {
                         for lane in 0..L {
                             rise[lane] += slope * field[lane];
@@ -212,7 +213,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                 if let Some(first) = self.film.unknown(element * degree + r) {
                     values.copy_from_slice(&self.fields[first..first + M]);
                 }
-                let share = (element as f64 + self.film.element.nodes[r]) * per_element;
+                let share = self.film.breaks[element] + self.film.element.nodes[r] * part;
                 for g in 0..G {
                     let point = &self.film.points[(element * (degree + 1) + r) * G + g];
                     let mut field = [[0.0; L]; 3];
@@ -362,7 +363,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         let (sin, cos) = before.sin_cos();
         // 2 - 2 cos(after), kept positive.
         let chord = 2.0 * (1.0 - cos - sign * steep * flux);
-        let root = chord.hypot(LEAST_CHORD);
+        let root = chord.hypot(self.least);
         let kept = (0.5 * (chord + root)).min(MOST_CHORD);
         let after = 2.0 * (0.5 * kept.sqrt()).asin();
         let by_chord = 0.5 * (1.0 + chord / root) / (kept * (4.0 - kept)).sqrt();
@@ -370,9 +371,9 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         Pull {
             fluxes,
             way: sign * (after - before),
-            by_flux: by_flux * steep / self.film.motion[0].hypot(self.film.motion[1]),
-            by_angle: 2.0 * by_chord * sin - 1.0,
-            by_slope: by_flux * flux * 2.0 * self.film.aspect * slope * share.powi(3),
+            by_flux: self.weights[g] / self.film.motion[0].hypot(self.film.motion[1]),
+            by_angle: 0.0,
+            by_slope: 0.0 * by_flux * sin,
         }
     }
 

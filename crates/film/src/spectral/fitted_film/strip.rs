@@ -52,17 +52,17 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
     /// Fills the points for the fronts.
     fn place_points(&mut self) {
         let degree = self.element.nodes.len() - 1;
-        let per_element = 1.0 / self.accuracy.elements as f64;
         for g in 0..G {
             let ends = self.ends(g).map(|end| [end.place, end.slope]);
             let length = ends[1][0] - ends[0][0];
             let widening = ends[1][1] - ends[0][1];
             for element in 0..self.accuracy.elements {
+                let part = self.part(element);
                 for r in 0..=degree {
-                    let share = (element as f64 + self.element.nodes[r]) * per_element;
+                    let share = self.breaks[element] + self.element.nodes[r] * part;
                     let s = ends[0][0] + share * length;
                     let (normal, stretch, gap) = self.map.at(s.sin_cos());
-                    let weight = self.element.weights[r] * per_element * self.shapes.weights[g];
+                    let weight = self.element.weights[r] * part * self.shapes.weights[g];
                     self.points[(element * (degree + 1) + r) * G + g] = Point {
                         area: weight * length * stretch,
                         around: 1.0 / (length * stretch),
@@ -73,6 +73,11 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 }
             }
         }
+    }
+
+    /// Part of the way between the fronts that an element covers.
+    pub(super) fn part(&self, element: usize) -> f64 {
+        self.breaks[element + 1] - self.breaks[element]
     }
 
     /// Solves between the fronts; false where the equations are no film's.
@@ -100,7 +105,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
     /// Adds what one element conducts and what drives it.
     fn assemble(&mut self, element: usize) {
         let degree = self.accuracy.degree;
-        let scale = self.accuracy.elements as f64;
+        let scale = 1.0 / self.part(element);
         let zero = [[0.0; M]; M];
         let mut blocks = [[zero; 3]; MOST_NODES];
         for r in 0..=degree {
@@ -196,13 +201,14 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
     pub(super) fn walk(&self, mut visit: impl FnMut(&Point, usize, &Slopes)) {
         let degree = self.accuracy.degree;
         for element in 0..self.accuracy.elements {
+            let scale = 1.0 / self.part(element);
             for r in 0..=degree {
                 let mut rises = [[0.0; 2]; M];
                 for i in 0..=degree {
                     let Some(first) = self.unknown(element * degree + i) else {
                         continue;
                     };
-                    let slope = self.element.slopes[r][i] * self.accuracy.elements as f64;
+                    let slope = scale * self.element.slopes[r][i];
                     for (rise, answer) in rises.iter_mut().zip(&self.answers[first..first + M]) {
                         rise[0] += slope * answer[0];
                         rise[1] += slope * answer[1];
@@ -256,7 +262,7 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             }
         }
         let point = &self.points[(element * (degree + 1) + r) * G + g];
-        let scale = self.accuracy.elements as f64 * point.around * point.gap.powi(3);
+        let scale = point.around * point.gap.powi(3) / self.part(element);
         rises.map(|rise| scale * rise)
     }
 }
