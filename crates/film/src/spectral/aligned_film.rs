@@ -9,7 +9,7 @@
 //! Reference: Marsalek, Novotny, Drapal, Pistek (2012), equations 4 to 9.
 
 use super::answer::{AlignedFigures, AlignedForce};
-use super::fitted_film::{Accuracy, JointFilm, LinewiseFilm};
+use super::fitted_film::{Accuracy, Crowding, JointFilm, LinewiseFilm};
 use super::half_film::HalfFilm;
 use crate::bearing::Cavitation;
 use crate::force::{FilmError, Outcome};
@@ -58,10 +58,15 @@ const NARROW: f64 = 0.6;
 const MIDDLE: f64 = 0.9;
 /// Largest width over diameter that five are enough for.
 const WIDE: f64 = 1.0;
-/// Modulus of the substitution of a fitted film over the relative eccentricity.
+/// Modulus of the substitution of a fitted film for tables over the relative eccentricity.
 const MODULUS: f64 = 0.96;
 /// The same where nodes crowd in the narrowest gap.
 const CROWDED: f64 = 0.985;
+/// Power of the substitution on line.
+const POWER: f64 = 0.75;
+/// How long elements at the fronts are on line, over the others: without shorter ones, or fewer of them, a front in the
+/// widest gap is lost from a relative eccentricity of 0.97.
+const END: f64 = 0.5;
 /// Error of the force over its size that the fronts of a film for tables may leave.
 const UNFELT: f64 = 1e-7;
 /// The same on line, before what the fronts still have to move is accounted for.
@@ -84,15 +89,19 @@ impl AlignedFilm {
         }
         let d_over_b = 1.0 / width_ratio;
         let is_narrow = width_ratio <= NARROW;
-        let fitted = |elements, degree, tolerance| Accuracy {
+        let even = |elements, degree, share| Accuracy {
             elements,
             degree,
-            modulus: MODULUS,
-            tolerance,
+            end: 1.0,
+            crowding: Crowding::Share(share),
+            tolerance: UNFELT,
         };
-        let crowded = |elements, degree| Accuracy {
-            modulus: CROWDED,
-            ..fitted(elements, degree, UNFELT)
+        let on_line = Accuracy {
+            elements: 6,
+            degree: 6,
+            end: END,
+            crowding: Crowding::Graded(POWER),
+            tolerance: SETTLED,
         };
         let kernel = match (cavitation, precision) {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
@@ -114,27 +123,24 @@ impl AlignedFilm {
                 Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
-                let accuracy = fitted(5, 6, SETTLED);
-                Kernel::FittedNarrow(Box::new(JointFilm::new(d_over_b, accuracy)))
+                Kernel::FittedNarrow(Box::new(JointFilm::new(d_over_b, on_line)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if width_ratio > WIDE => {
-                let accuracy = fitted(6, 7, SETTLED);
-                Kernel::FittedWider(Box::new(JointFilm::new(d_over_b, accuracy)))
+                Kernel::FittedWider(Box::new(JointFilm::new(d_over_b, on_line)))
             }
             (Cavitation::Reynolds, Precision::OnLine) => {
-                let accuracy = fitted(6, 6, SETTLED);
-                Kernel::FittedWide(Box::new(JointFilm::new(d_over_b, accuracy)))
+                Kernel::FittedWide(Box::new(JointFilm::new(d_over_b, on_line)))
             }
             (Cavitation::Reynolds, Precision::Fine) => {
-                let accuracy = fitted(8, 7, UNFELT);
+                let accuracy = even(8, 7, MODULUS);
                 Kernel::FittedFine(Box::new(LinewiseFilm::new(d_over_b, accuracy, 4)))
             }
-            (Cavitation::Reynolds, Precision::NearContact) => {
-                Kernel::FittedFine(Box::new(LinewiseFilm::new(d_over_b, crowded(8, 8), 5)))
-            }
-            (Cavitation::Reynolds, Precision::Finest) => {
-                Kernel::FittedFinest(Box::new(LinewiseFilm::new(d_over_b, crowded(10, 8), 6)))
-            }
+            (Cavitation::Reynolds, Precision::NearContact) => Kernel::FittedFine(Box::new(
+                LinewiseFilm::new(d_over_b, even(8, 8, CROWDED), 5),
+            )),
+            (Cavitation::Reynolds, Precision::Finest) => Kernel::FittedFinest(Box::new(
+                LinewiseFilm::new(d_over_b, even(10, 8, CROWDED), 6),
+            )),
             (Cavitation::MassConserving, _) => {
                 return Err(FilmError::Unsupported {
                     reason: "a film that remembers is not solved on line: use model = \"field\" for \
@@ -239,9 +245,4 @@ impl AlignedFilm {
             Kernel::FittedFinest(film) => film.figures(),
         }
     }
-
-    /// TEMPORARY
-    pub fn fallbacks(&self) -> usize { self.counts()[0] }
-    /// TEMPORARY
-    pub fn counts(&self) -> [usize; 3] { match &self.kernel { Kernel::FittedNarrow(f) => [f.fallbacks, f.solves, f.diffs], Kernel::FittedWide(f) => [f.fallbacks, f.solves, f.diffs], Kernel::FittedWider(f) => [f.fallbacks, f.solves, f.diffs], _ => [0; 3] } }
 }

@@ -14,7 +14,8 @@
 //! ```
 //! with omega the angle of the motion. Two ways to settle the fronts: each line by itself until the force
 //! no longer feels it (`linewise`), for tables; all together by Newton's method until nothing is left of
-//! their conditions, with a force whose derivatives are exact (`joint`), on line.
+//! their conditions, the mean flux weighted with each term of a front, with a force whose derivatives are
+//! exact (`joint`, `moving`), on line.
 //! Limits: the film is torn apart on every line across the width; it is, up to widths of some
 //! diameters. Pressures over 12 eta R^2/c^2, motion over c.
 //! References: H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber, Das Schwimmlager, VDI 1933; trial free
@@ -26,7 +27,7 @@ use super::around::SommerfeldAngle;
 use super::profile::ProfileMatrix;
 use super::quadrature::{Element, gauss_legendre};
 use fronts::{FrontFit, Fronts};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 pub(super) use joint::JointFilm;
 pub(super) use linewise::LinewiseFilm;
@@ -66,7 +67,6 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     answers: Vec<[f64; 2]>,
     points: Vec<strip::Point>,
     map: SommerfeldAngle,
-    pub(super) online: bool, q: f64,
     /// The state of the last solution.
     eps: f64,
     motion: [f64; 2],
@@ -81,10 +81,30 @@ pub(super) struct Accuracy {
     pub elements: usize,
     /// Their degree.
     pub degree: usize,
-    /// Modulus of the substitution over the relative eccentricity.
-    pub modulus: f64,
+    /// How long the elements at the fronts are, over the others.
+    pub end: f64,
+    pub crowding: Crowding,
     /// Error of the force over its size that fronts may leave.
     pub tolerance: f64,
+}
+
+/// How nodes crowd in the narrowest gap: the modulus of the substitution.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Crowding {
+    /// A share of the relative eccentricity.
+    Share(f64),
+    /// [`SommerfeldAngle::graded`] with this power: less than the gap asks for as it closes, so that nodes are left
+    /// for a front in the widest gap.
+    Graded(f64),
+}
+
+impl Crowding {
+    fn at(self, eps: f64) -> SommerfeldAngle {
+        match self {
+            Self::Share(share) => SommerfeldAngle::new(eps, share),
+            Self::Graded(power) => SommerfeldAngle::graded(eps, power),
+        }
+    }
 }
 
 /// Even polynomials on the lines.
@@ -127,14 +147,13 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             accuracy,
             shapes: Shapes::new(),
             element: Element::new(degree),
-            breaks: breaks(elements),
+            breaks: breaks(elements, accuracy.end),
             fit: FrontFit::new(),
             matrix: ProfileMatrix::new(starts),
             sources: vec![[0.0; 2]; nodes * M],
             answers: vec![[0.0; 2]; nodes * M],
             points: vec![strip::Point::default(); elements * (degree + 1) * G],
-            map: SommerfeldAngle::graded(0.0, env("Q", 0.75)),
-            online: false, q: env("Q", 0.75),
+            map: accuracy.crowding.at(0.0),
             eps: 0.0,
             motion: [1.0, 0.0],
             fronts: Fronts {
@@ -151,8 +170,30 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
         let rise = eps - self.eps;
         self.eps = eps;
         self.motion = motion;
-        self.map = if std::mem::size_of_val(&self.element) > 0 && self.online { SommerfeldAngle::graded(eps, self.q) } else { SommerfeldAngle::new(eps, self.accuracy.modulus) };
+        self.map = self.accuracy.crowding.at(eps);
         (rise.abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3).then_some([rise, turn])
+    }
+
+    /// Where each line would have its fronts, rad: where the flux across them is used up.
+    fn wishes(&self) -> [[f64; G]; 2] {
+        let speed = self.motion[0].hypot(self.motion[1]);
+        let mut wishes = [[0.0; G]; 2];
+        for g in 0..G {
+            for side in 0..2 {
+                let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
+                let steep = 1.0 + (self.aspect * slope * slope).min(SLOPE_CAP);
+                let used = at.sin() + steep * dot(self.fluxes(side, g), self.motion) / speed;
+                let beyond = PI - used.clamp(-1.0, 1.0).asin();
+                let wish = if side == 1 { beyond } else { beyond - TAU };
+                wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);
+            }
+            let over = wishes[1][g] - wishes[0][g] - (TAU - LEAST_RUPTURE);
+            if over > 0.0 {
+                wishes[0][g] += 0.5 * over;
+                wishes[1][g] -= 0.5 * over;
+            }
+        }
+        wishes
     }
 
     /// Angle of the motion from the line of centres, rad.
@@ -173,21 +214,23 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
     }
 }
 
-pub(super) fn env(name: &str, or: f64) -> f64 { std::env::var(format!("SOMM_{name}")).ok().and_then(|v| v.parse().ok()).unwrap_or(or) }
-fn breaks(elements: usize) -> Vec<f64> {
-    (0..=elements).map(|e| e as f64 / elements as f64).collect()
-}
-impl<const M: usize, const G: usize> FittedFilm<M, G> {
-    fn grade(&mut self) {
-        self.online = env("Q", 0.75) > 0.0;
-        let n = self.accuracy.elements;
-        let end = env("G", 0.6);
-        let mut sizes = vec![1.0; n];
-        sizes[0] = end; sizes[n - 1] = end;
-        let all: f64 = sizes.iter().sum();
-        let mut at = 0.0;
-        for e in 0..n { at += sizes[e] / all; self.breaks[e + 1] = at; }
-    }
+/// Where elements meet, those at the fronts shorter than the others by a factor.
+fn breaks(elements: usize, end: f64) -> Vec<f64> {
+    let last = elements - 1;
+    let size = |element: usize| {
+        if element == 0 || element == last {
+            end
+        } else {
+            1.0
+        }
+    };
+    let whole: f64 = (0..elements).map(size).sum();
+    let mut at = 0.0;
+    let inner = (0..last).map(|element| {
+        at += size(element);
+        at / whole
+    });
+    std::iter::once(0.0).chain(inner).chain([1.0]).collect()
 }
 
 /// Where the fronts of a film are thought to be that nothing is known of, rad.
@@ -196,20 +239,13 @@ const fn first_wishes<const G: usize>() -> [[f64; G]; 2] {
     [[-reach; G], [reach; G]]
 }
 
-/// Leaves the ruptured film its least arc.
-fn keep_apart<const G: usize>(wishes: &mut [[f64; G]; 2]) {
-    for g in 0..G {
-        let over = wishes[1][g] - wishes[0][g] - (TAU - LEAST_RUPTURE);
-        if over > 0.0 {
-            wishes[0][g] += 0.5 * over;
-            wishes[1][g] -= 0.5 * over;
-        }
-    }
-}
-
 /// A film at rest is the one that would form as the gap closes: the motion to solve for.
 fn driven(motion: [f64; 2]) -> [f64; 2] {
-    if motion == [0.0; 2] { [1.0, 0.0] } else { motion }
+    if motion == [0.0; 2] {
+        [1.0, 0.0]
+    } else {
+        motion
+    }
 }
 
 /// What of its answer is left at rest.
@@ -240,7 +276,8 @@ mod tests {
             let accuracy = |elements, degree| Accuracy {
                 elements,
                 degree,
-                modulus: 0.96,
+                end: 1.0,
+                crowding: Crowding::Share(0.96),
                 tolerance: 1e-7,
             };
             let mut fine = LinewiseFilm::<7, 9>::new(d_over_b, accuracy(8, 7), 4);

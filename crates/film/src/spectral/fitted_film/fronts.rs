@@ -18,6 +18,8 @@ pub(super) struct FrontFit<const G: usize> {
     terms: [[[f64; G]; 2]; MOST_TERMS],
     /// Weights of the fit.
     weights: [f64; G],
+    /// The terms by the weights of their conditions.
+    moments: [[f64; G]; MOST_TERMS],
 }
 
 /// The fronts that bound the film, the first and the last in the sense of the angle.
@@ -53,7 +55,14 @@ impl<const G: usize> FrontFit<G> {
             let size = weighted(&weights, &value, &value).sqrt();
             terms[term] = [value.map(|v| v / size), slope.map(|v| v / size)];
         }
-        Self { terms, weights }
+        let moments = terms.map(|[value, _]| {
+            std::array::from_fn(|g| points[g][1] * (1.0 - places[g] * places[g]) * value[g])
+        });
+        Self {
+            terms,
+            weights,
+            moments,
+        }
     }
 
     /// Fronts of `count` terms closest to the wishes.
@@ -91,9 +100,10 @@ impl<const G: usize> FrontFit<G> {
         &self.terms[term]
     }
 
-    /// Weights of the lines in the fit.
-    pub(super) fn weights(&self) -> &[f64; G] {
-        &self.weights
+    /// What the flux across a front counts on the lines in the condition of a term: the term by 1 - Z^2, as the
+    /// pressure before the front falls to the ends.
+    pub(super) fn moment(&self, term: usize) -> &[f64; G] {
+        &self.moments[term]
     }
 
     /// Weighted mean square of a change of angles, rad.

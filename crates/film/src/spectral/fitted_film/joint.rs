@@ -4,10 +4,8 @@
 //! derivatives of the discrete equations (`moving`). They also give those of the force with fronts that
 //! follow the journal, and foretell the fronts of the next state.
 
-use super::moving::{Pull, Rates};
-use super::{
-    Accuracy, FittedFilm, LONGEST_MOVE, MOST_UPDATES, at_rest, driven, first_wishes, keep_apart,
-};
+use super::moving::Rates;
+use super::{Accuracy, FittedFilm, MOST_UPDATES, at_rest, driven, first_wishes};
 use crate::spectral::answer::{AlignedFigures, AlignedForce};
 
 /// Places before the parts of the fronts in an array of what the film depends on: eccentricity and direction.
@@ -16,9 +14,13 @@ pub(super) const BEFORE: usize = 2;
 const CLOSE: f64 = 0.03;
 /// It has new rates where its changes fall less than to this share.
 const SLOW: f64 = 0.3;
+/// Where they fall less than to this share even so, half of them is enough.
+const OVERSHOT: f64 = 0.5;
 /// Its changes are at most this, rad; a greater one means that it is lost.
 const FARTHEST: f64 = 0.3;
-/// Changes of the force over its size that lines which move by themselves may still make.
+/// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
+const FIRST_TERMS: usize = 2;
+/// Changes of the force over its size that lines may still make where Newton's method fails.
 const UNFELT: f64 = 3e-6;
 
 /// A film whose fronts are settled together, with `L - 2` parts in both.
@@ -27,8 +29,8 @@ pub(in crate::spectral) struct JointFilm<const M: usize, const G: usize, const L
     pub(super) film: FittedFilm<M, G>,
     /// The answers and the adjoints of the fronts' conditions.
     pub(super) fields: Vec<[f64; L]>,
-    /// Where each line would have the fronts.
-    pub(super) pulls: [[Pull; G]; 2],
+    /// H^3 p_theta at both fronts on the lines for unit motions.
+    pub(super) fluxes: [[[f64; 2]; G]; 2],
     /// Parts of the fronts, rad, first of eccentricity and direction nothing.
     parts: [f64; L],
     /// How the equations change, the inverse of the fronts' part, how the fronts follow eccentricity and direction.
@@ -36,7 +38,6 @@ pub(in crate::spectral) struct JointFilm<const M: usize, const G: usize, const L
     pub(super) inverse: Rates<L>,
     pub(super) follow: [[f64; 2]; L],
     is_warm: bool,
-    pub(in crate::spectral) fallbacks: usize, pub(super) least: f64, pub(super) weights: [f64; G], debug: bool, pub(in crate::spectral) solves: usize, pub(in crate::spectral) diffs: usize,
 }
 
 impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
@@ -45,19 +46,16 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
 
     /// For a film of this D/B.
     pub(in crate::spectral) fn new(d_over_b: f64, accuracy: Accuracy) -> Self {
-        let accuracy = Accuracy { elements: super::env("E", accuracy.elements as f64) as usize, degree: super::env("P", accuracy.degree as f64) as usize, tolerance: super::env("TOL", accuracy.tolerance), modulus: super::env("M", accuracy.modulus), };
-        let mut film = FittedFilm::new(d_over_b, accuracy);
-        film.grade();
+        let film = FittedFilm::new(d_over_b, accuracy);
         Self {
             fields: vec![[0.0; L]; film.answers.len()],
             film,
-            pulls: [[Pull::default(); G]; 2],
+            fluxes: [[[0.0; 2]; G]; 2],
             parts: [0.0; L],
             rates: [[0.0; L]; L],
             inverse: [[0.0; L]; L],
             follow: [[0.0; 2]; L],
             is_warm: false,
-            fallbacks: 0, weights: { let points = crate::spectral::quadrature::gauss_legendre(2 * G); std::array::from_fn(|g| (1.0 - points[g][0] * points[g][0]).powf(super::env("W", 0.0))) }, debug: super::env("DEBUG", 0.0) > 0.0, least: super::env("C", super::moving::LEAST_CHORD), solves: 0, diffs: 0,
         }
     }
 
@@ -68,7 +66,11 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
 
     /// Force and derivatives at a relative eccentricity below 1, for a motion along and across the line
     /// of centres, and whether the fronts settled.
-    pub(in crate::spectral) fn force(&mut self, eps: f64, motion: [f64; 2]) -> (AlignedForce, bool) {
+    pub(in crate::spectral) fn force(
+        &mut self,
+        eps: f64,
+        motion: [f64; 2],
+    ) -> (AlignedForce, bool) {
         self.begin(eps, driven(motion));
         let mut settled = self.settle();
         if !settled && self.is_warm {
@@ -84,12 +86,12 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             }
             self.tangents(&change)
         } else {
-            // Where the elements are too coarse for the fronts of a gap so wide that the force does not feel them.
-            self.fallbacks += 1;
-            settled = self.settle_by_lines();
-            self.differentiate();
-            self.follow = [[0.0; 2]; L];
-            self.tangents(&[0.0; L])
+            // Beyond a relative eccentricity of 0.99, elements may be too coarse for a front in a gap so wide that the
+            // force does not feel it.
+            settled = self
+                .film
+                .settle_linewise(&mut first_wishes(), Self::TERMS, UNFELT);
+            self.film.held_tangents()
         };
         if motion == [0.0; 2] {
             return (at_rest(found), settled);
@@ -124,35 +126,28 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
 
     /// Solves between the fronts of the present parts; false where the equations are no film's.
     fn solve(&mut self) -> bool {
-        self.solves += 1;
         let film = &mut self.film;
         for (side, parts) in self.parts[BEFORE..].chunks_exact(Self::TERMS).enumerate() {
             [film.fronts.angles[side], film.fronts.slopes[side]] = film.fit.front(parts);
         }
         let is_solved = film.solve();
-        self.pull_fronts();
+        self.fluxes = [0, 1].map(|side| std::array::from_fn(|g| film.fluxes(side, g)));
         is_solved
     }
 
     /// Moves the fronts to where their conditions put them: from afar each line by itself, then all by Newton's
     /// method, with rates known from a neighbour while that brings them on.
     fn settle(&mut self) -> bool {
-        let terms = Self::TERMS;
         let mut is_close = self.is_warm;
         let mut last = f64::INFINITY;
         let mut step: Option<[f64; L]> = None;
-        for update in 0..MOST_UPDATES {
+        for _ in 0..MOST_UPDATES {
             if !self.solve() {
                 return false;
             }
             if !is_close {
-                let parts = self.parts_of(
-                    &self.wishes(),
-                    if update > 3 { terms } else { terms.min(3) },
-                );
-                let change: [f64; L] =
-                    std::array::from_fn(|part| parts[part] - self.parts[part]);
-                if self.debug { eprintln!("   lines {update}: {:.2e} parts {:.3?}", self.size(&change), &self.parts[2..]); }
+                let parts = self.parts_of(&self.film.wishes(), FIRST_TERMS);
+                let change: [f64; L] = std::array::from_fn(|part| parts[part] - self.parts[part]);
                 is_close = self.size(&change) < CLOSE;
                 if !is_close {
                     self.parts = parts;
@@ -177,14 +172,16 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                 change = self.newton_change();
                 size = self.size(&change);
             }
-            if self.debug { eprintln!("   newton {update}: {size:.2e} last {last:.2e} parts {:.3?}", &self.parts[2..]); }
-            if size > FARTHEST || size > last || size.is_nan() {
+            if size > FARTHEST || size.is_nan() {
                 return false;
             }
+            let is_whole = size <= OVERSHOT * last;
+            let share = if is_whole { 1.0 } else { 0.5 };
             for (part, change) in self.parts.iter_mut().zip(change) {
-                *part += change;
+                *part += share * change;
             }
-            (last, step) = (size, Some(change));
+            // The update knows whole steps.
+            (last, step) = (size, is_whole.then_some(change));
         }
         false
     }
@@ -197,7 +194,8 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     /// Betters the inverse by what is left to change after a step, and that change with it: the update of C. G.
     /// Broyden, Math. Comput. 19 (1965) 577, with `H y = step - change`.
     fn learn(&mut self, step: &[f64; L], change: &mut [f64; L]) {
-        let product = |a: &[f64; L], b: &[f64; L]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let product =
+            |a: &[f64; L], b: &[f64; L]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         let square = product(step, step);
         let rest = square - product(step, change);
         if rest < 0.5 * square {
@@ -216,43 +214,4 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         }
         *change = change.map(|part| part * square / rest);
     }
-
-    /// Lets each line move its fronts by itself until the force no longer feels it.
-    fn settle_by_lines(&mut self) -> bool {
-        self.begin(self.film.eps, self.film.motion);
-        let terms = Self::TERMS;
-        let (mut before, mut last_change) = ([0.0; 2], f64::INFINITY);
-        for update in 0..MOST_UPDATES {
-            if !self.solve() {
-                return false;
-            }
-            let force = self.film.force_of_answers();
-            let size = force[0].hypot(force[1]);
-            let change = (force[0] - before[0]).hypot(force[1] - before[1]) / size;
-            // The force follows the fronts to second order, and so do its changes one another.
-            let left = (change * change / last_change).max(0.1 * change);
-            if update > 1 && left < UNFELT {
-                return true;
-            }
-            let terms = if update > 3 { terms } else { terms.min(3) };
-            self.parts = self.parts_of(&self.wishes(), terms);
-            (before, last_change) = (force, change);
-        }
-        last_change < 10.0 * UNFELT
-    }
-
-    /// Where each line would have its fronts: where the flux across them is used up, rad.
-    fn wishes(&self) -> [[f64; G]; 2] {
-        let mut wishes = [[0.0; G]; 2];
-        for g in 0..G {
-            for side in 0..2 {
-                let way = self.pulls[side][g].way;
-                wishes[side][g] =
-                    self.film.fronts.angles[side][g] + way.clamp(-LONGEST_MOVE, LONGEST_MOVE);
-            }
-        }
-        keep_apart(&mut wishes);
-        wishes
-    }
-
 }

@@ -5,13 +5,9 @@
 //! follows the fronts to second order, so that a few updates suffice. Its derivatives hold the fronts:
 //! those by the place of the journal are `u dA/de p` with the two u of unit motions.
 
-use super::fronts::MOST_TERMS;
-use super::{
-    Accuracy, FittedFilm, LONGEST_MOVE, MOST_UPDATES, SLOPE_CAP, at_rest, dot, driven,
-    first_wishes, keep_apart,
-};
+use super::fronts::{Fronts, MOST_TERMS};
+use super::{Accuracy, FittedFilm, MOST_UPDATES, at_rest, dot, driven, first_wishes};
 use crate::spectral::answer::{AlignedFigures, AlignedForce};
-use std::f64::consts::{PI, TAU};
 
 /// A film whose fronts are settled line by line.
 #[derive(Debug, Clone)]
@@ -37,7 +33,11 @@ impl<const M: usize, const G: usize> LinewiseFilm<M, G> {
 
     /// Force and derivatives at a relative eccentricity below 1, for a motion along and across the line
     /// of centres, and whether the fronts settled.
-    pub(in crate::spectral) fn force(&mut self, eps: f64, motion: [f64; 2]) -> (AlignedForce, bool) {
+    pub(in crate::spectral) fn force(
+        &mut self,
+        eps: f64,
+        motion: [f64; 2],
+    ) -> (AlignedForce, bool) {
         self.begin(eps, driven(motion));
         let mut settled = self.settle();
         if !settled && self.is_warm {
@@ -67,65 +67,63 @@ impl<const M: usize, const G: usize> LinewiseFilm<M, G> {
         }
     }
 
-    /// Updates until a further one would not change the force.
     fn settle(&mut self) -> bool {
         let tolerance = self.film.accuracy.tolerance;
-        let mut terms = self.terms.min(3);
+        self.film
+            .settle_linewise(&mut self.wishes, self.terms, tolerance)
+    }
+}
+
+impl<const M: usize, const G: usize> FittedFilm<M, G> {
+    /// Lets each line move its fronts, from wishes for them to wishes for the next, until a further update would
+    /// not change the force by more than the tolerance; whether that came about.
+    pub(super) fn settle_linewise(
+        &mut self,
+        wishes: &mut [[f64; G]; 2],
+        most_terms: usize,
+        tolerance: f64,
+    ) -> bool {
+        let mut terms = most_terms.min(3);
         let (mut before, mut last_change) = ([0.0; 2], f64::INFINITY);
         for update in 0..MOST_UPDATES {
-            self.film.fronts = self.film.fit.fit(&self.wishes, terms);
-            if !self.film.solve() {
+            self.fronts = self.fit.fit(wishes, terms);
+            if !self.solve() {
                 return false;
             }
-            let force = self.film.force_of_answers();
+            let force = self.force_of_answers();
             let size = force[0].hypot(force[1]);
             let change = (force[0] - before[0]).hypot(force[1] - before[1]) / size;
-            let shift = self.move_fronts(terms);
+            *wishes = self.wishes();
+            let shift = self.shift(&self.fit.fit(wishes, terms));
             // The force follows the fronts to second order, and so do its changes one another.
-            let by_shift = self.film.aspect.max(1.0) * shift * shift;
+            let by_shift = self.aspect.max(1.0) * shift * shift;
             let by_change = (change * change / last_change).max(0.1 * change);
             let is_done = by_shift < tolerance || (update > 1 && by_change < tolerance);
-            if terms == self.terms && is_done {
+            if terms == most_terms && is_done {
                 return true;
             }
             if shift < 0.05 || update > 3 {
-                terms = self.terms;
+                terms = most_terms;
             }
             (before, last_change) = (force, change);
         }
         last_change < 10.0 * tolerance
     }
 
-    /// Lets the fronts go where the flux across them is used up; how far they move, rad (mean square).
-    fn move_fronts(&mut self, terms: usize) -> f64 {
-        let Self { film, wishes, .. } = self;
-        let speed = film.motion[0].hypot(film.motion[1]);
-        for g in 0..G {
-            for side in 0..2 {
-                let (at, slope) = (film.fronts.angles[side][g], film.fronts.slopes[side][g]);
-                let steep = 1.0 + (film.aspect * slope * slope).min(SLOPE_CAP);
-                let used = at.sin() + steep * dot(film.fluxes(side, g), film.motion) / speed;
-                let beyond = PI - used.clamp(-1.0, 1.0).asin();
-                let wish = if side == 1 { beyond } else { beyond - TAU };
-                wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);
-            }
-        }
-        keep_apart(wishes);
-        let next = film.fit.fit(wishes, terms);
+    /// How far fronts would move, rad (mean square).
+    fn shift(&self, next: &Fronts<G>) -> f64 {
         let moved = |side: usize| -> f64 {
             let change =
-                std::array::from_fn(|g| next.angles[side][g] - film.fronts.angles[side][g]);
-            film.fit.size_on_lines(&change)
+                std::array::from_fn(|g| next.angles[side][g] - self.fronts.angles[side][g]);
+            self.fit.size_on_lines(&change)
         };
         moved(0).hypot(moved(1))
     }
-}
 
-impl<const M: usize, const G: usize> FittedFilm<M, G> {
     /// Force and derivatives of the last solution. Those by the place of the journal, along and across,
     /// at fixed fronts; the one by the direction of motion with fronts that turn with it, `J F - eps
     /// dF/dy` since the film knows only the angle between both: exact for a journal in the centre.
-    fn held_tangents(&self) -> AlignedForce {
+    pub(super) fn held_tangents(&self) -> AlignedForce {
         let force = self.force_of_answers();
         let mut by_place = [[0.0; 2]; 2];
         self.walk(|point, _, slopes| {

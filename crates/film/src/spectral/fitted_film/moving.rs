@@ -1,20 +1,18 @@
 //! How do force and fronts follow the journal?
 //!
 //! ```text
-//! R(c, x) = 0,  R_t = sum over lines of  weight T_t(Z) d   at either front
+//! R(c, x) = 0,  R_t = sum over lines of  weight T_t(Z) H^3 p_theta/|w|   at either front
 //! dF/dx = F_x - F_c R_c^-1 R_x,   x = (eccentricity, direction of motion),  c the parts of the fronts
 //! ```
-//! with d the way that the front would go by itself on its line (`pull`), so that R_c is close to minus one.
 //! In the continuous film F_c vanishes, as the slope of the pressure does at the fronts; with some terms
 //! of a front it is small and not zero. All four blocks are derivatives of the discrete equations, by
 //! adjoints: two of the force, which are the answers themselves, and one for each part of the fronts.
 //! R_c also moves the fronts by Newton's method, and `-R_c^-1 R_x` foretells where they will be.
 
+use super::dot;
 use super::joint::{BEFORE, JointFilm};
 use super::strip::{End, Point};
-use super::{SLOPE_CAP, dot};
 use crate::spectral::answer::AlignedForce;
-use std::f64::consts::FRAC_PI_2;
 
 /// Rows: both forces, then the conditions at the fronts. Columns: eccentricity, direction, parts of
 /// the fronts.
@@ -39,22 +37,6 @@ struct PointRates {
     grown: [f64; 3],
 }
 
-/// Squares of the angle beyond a quarter of a turn that count as none, rad2.
-pub(super) const LEAST_CHORD: f64 = 1e-3;
-/// Largest square of the chord to that angle.
-const MOST_CHORD: f64 = 3.9;
-
-/// Where a front would go on its line, rad, and how that changes with flux, angle and slope; H^3 p_theta there for
-/// unit motions.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Pull {
-    pub way: f64,
-    fluxes: [f64; 2],
-    by_flux: f64,
-    by_angle: f64,
-    by_slope: f64,
-}
-
 /// Motion across the present one.
 fn across([along, across]: [f64; 2]) -> [f64; 2] {
     [-across, along]
@@ -63,7 +45,6 @@ fn across([along, across]: [f64; 2]) -> [f64; 2] {
 impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     /// Fills `rates`, the inverse of the fronts' part, and how the fronts follow; false if they do not.
     pub(super) fn differentiate(&mut self) -> bool {
-        self.diffs += 1;
         self.solve_adjoints();
         let mut lines = [LineRates {
             place: [[0.0; L]; 2],
@@ -74,7 +55,6 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         self.walk_fields(&mut lines);
         self.add_conditions(&mut lines);
         let mut rates = self.gathered(&lines);
-        self.add_pulls(&mut rates);
         let (resistance, conditions) = (self.film.resistance(), self.conditions());
         let turned = across(self.film.motion);
         for row in 0..L {
@@ -135,19 +115,15 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     /// What is left of the conditions at the fronts, and how it changes with the direction of motion where the
     /// film stays.
     fn conditions(&self) -> [[f64; 2]; L] {
-        let terms = Self::TERMS;
-        let turned = across(self.film.motion);
+        let (motion, turned) = (self.film.motion, across(self.film.motion));
+        let per_speed = 1.0 / motion[0].hypot(motion[1]);
         let mut conditions = [[0.0; 2]; L];
-        for side in 0..2 {
-            for g in 0..G {
-                let weight = self.film.fit.weights()[g];
-                let pull = &self.pulls[side][g];
-                let parts = [pull.by_flux * dot(pull.fluxes, self.film.motion), pull.by_flux * dot(pull.fluxes, turned)];
-                for term in 0..terms {
-                    let share = weight * self.film.fit.term(term)[0][g];
-                    let row = &mut conditions[BEFORE + side * terms + term];
-                    row[0] += share * parts[0];
-                    row[1] += share * parts[1];
+        for (side, fluxes) in self.fluxes.iter().enumerate() {
+            for term in 0..Self::TERMS {
+                let row = &mut conditions[BEFORE + side * Self::TERMS + term];
+                for (share, flux) in self.film.fit.moment(term).iter().zip(fluxes) {
+                    row[0] += share * per_speed * dot(*flux, motion);
+                    row[1] += share * per_speed * dot(*flux, turned);
                 }
             }
         }
@@ -158,6 +134,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     fn solve_adjoints(&mut self) {
         let terms = Self::TERMS;
         let degree = self.film.accuracy.degree;
+        let per_speed = 1.0 / self.film.motion[0].hypot(self.film.motion[1]);
         self.fields.fill([0.0; L]);
         for side in 0..2 {
             let (element, r) = self.film.end(side);
@@ -165,11 +142,11 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             for g in 0..G {
                 let point = &self.film.points[(element * (degree + 1) + r) * G + g];
                 let conducts = point.around * point.gap.powi(3) / self.film.part(element);
-                let weight = self.film.fit.weights()[g] * self.pulls[side][g].by_flux * conducts;
                 for term in 0..terms {
-                    let share = weight * self.film.fit.term(term)[0][g];
+                    let share = conducts * per_speed * self.film.fit.moment(term)[g];
                     for k in 0..M {
-                        loads[k][BEFORE + side * terms + term] += share * self.film.shapes.values[g][k];
+                        loads[k][BEFORE + side * terms + term] +=
+                            share * self.film.shapes.values[g][k];
                     }
                 }
             }
@@ -218,7 +195,8 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                     let point = &self.film.points[(element * (degree + 1) + r) * G + g];
                     let mut field = [[0.0; L]; 3];
                     for k in 0..M {
-                        let (value, slope) = (self.film.shapes.values[g][k], self.film.shapes.slopes[g][k]);
+                        let (value, slope) =
+                            (self.film.shapes.values[g][k], self.film.shapes.slopes[g][k]);
                         for lane in 0..L {
                             field[0][lane] += value * values[k][lane];
                             field[1][lane] += value * rises[k][lane];
@@ -284,7 +262,11 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         let [cos, sin] = point.normal;
         let (stretch, [stretch_moved, stretch_grown], turned) = self.film.map.rates(point.normal);
         PointRates {
-            moved: [self.film.eps * sin * stretch / point.gap, stretch_moved, stretch],
+            moved: [
+                self.film.eps * sin * stretch / point.gap,
+                stretch_moved,
+                stretch,
+            ],
             grown: [
                 (self.film.eps * sin * turned - cos) / point.gap,
                 stretch_grown,
@@ -296,84 +278,23 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
     /// Adds how the conditions at the fronts change with the places of their points.
     fn add_conditions(&self, lines: &mut [LineRates<L>; G]) {
         let terms = Self::TERMS;
+        let motion = self.film.motion;
+        let per_speed = 1.0 / motion[0].hypot(motion[1]);
         let degree = self.film.accuracy.degree;
         for side in 0..2 {
             let (element, r) = self.film.end(side);
             for (g, line) in lines.iter_mut().enumerate() {
                 let point = &self.film.points[(element * (degree + 1) + r) * G + g];
-                let pull = &self.pulls[side][g];
-                let flux = dot(pull.fluxes, self.film.motion);
-                let weighted = self.film.fit.weights()[g] * pull.by_flux * flux;
+                let flux = per_speed * dot(self.fluxes[side][g], motion);
                 let PointRates { moved, grown } = self.point_rates(point);
                 for term in 0..terms {
                     let lane = BEFORE + side * terms + term;
-                    let part = weighted * self.film.fit.term(term)[0][g];
+                    let part = flux * self.film.fit.moment(term)[g];
                     line.place[side][lane] += part * (3.0 * moved[0] - moved[1]);
                     line.eccentricity[lane] += part * (3.0 * grown[0] - grown[1]);
                     line.length[lane] -= part;
                 }
             }
-        }
-    }
-
-    /// Adds how the conditions change with the fronts where the flux stays.
-    fn add_pulls(&self, rates: &mut Rates<L>) {
-        let terms = Self::TERMS;
-        for side in 0..2 {
-            let first = BEFORE + side * terms;
-            for g in 0..G {
-                let weight = self.film.fit.weights()[g];
-                let pull = &self.pulls[side][g];
-                for row in 0..terms {
-                    let part = weight * self.film.fit.term(row)[0][g];
-                    for column in 0..terms {
-                        let [value, rise] = self.film.fit.term(column);
-                        rates[first + row][first + column] +=
-                            part * (pull.by_angle * value[g] + pull.by_slope * rise[g]);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Fills where the fronts of the last solution would go.
-    pub(super) fn pull_fronts(&mut self) {
-        for side in 0..2 {
-            for g in 0..G {
-                self.pulls[side][g] = self.pull(side, g);
-            }
-        }
-    }
-
-    /// Where a front would go on its line: to where the sink behind it has used up the flux across it,
-    ///
-    /// `cos(after) = cos(before) + (1 + (D/B)^2 front'^2) H^3 p_theta/|w|`
-    ///
-    /// with the angles beyond a quarter of a turn from the motion. Where there is no such angle, close to the
-    /// ends, it tends to zero smoothly, and what slanting adds tends to a bound.
-    fn pull(&self, side: usize, g: usize) -> Pull {
-        let (at, slope) = (self.film.fronts.angles[side][g], self.film.fronts.slopes[side][g]);
-        let sign = if side == 0 { -1.0 } else { 1.0 };
-        let before = sign * at - FRAC_PI_2;
-        let square = self.film.aspect * slope * slope;
-        let share = 1.0 / (square / SLOPE_CAP).hypot(1.0);
-        let steep = 1.0 + square * share;
-        let fluxes = self.film.fluxes(side, g);
-        let flux = dot(fluxes, self.film.motion) / self.film.motion[0].hypot(self.film.motion[1]);
-        let (sin, cos) = before.sin_cos();
-        // 2 - 2 cos(after), kept positive.
-        let chord = 2.0 * (1.0 - cos - sign * steep * flux);
-        let root = chord.hypot(self.least);
-        let kept = (0.5 * (chord + root)).min(MOST_CHORD);
-        let after = 2.0 * (0.5 * kept.sqrt()).asin();
-        let by_chord = 0.5 * (1.0 + chord / root) / (kept * (4.0 - kept)).sqrt();
-        let by_flux = -2.0 * by_chord;
-        Pull {
-            fluxes,
-            way: sign * (after - before),
-            by_flux: self.weights[g] / self.film.motion[0].hypot(self.film.motion[1]),
-            by_angle: 0.0,
-            by_slope: 0.0 * by_flux * sin,
         }
     }
 
