@@ -6,7 +6,7 @@
 //! those by the place of the journal are `u dA/de p` with the two u of unit motions.
 
 use super::fronts::{Fronts, MOST_TERMS};
-use super::{Accuracy, FittedFilm, MOST_UPDATES, at_rest, dot, driven, first_wishes};
+use super::{Accuracy, FittedFilm, MOST_UPDATES, at_rest, driven, first_wishes};
 use crate::spectral::answer::{AlignedFigures, AlignedForce};
 
 /// A film whose fronts are settled line by line.
