@@ -18,6 +18,8 @@ const SLOW: f64 = 0.3;
 const OVERSHOT: f64 = 0.5;
 /// Its changes are at most this, rad; a greater one means that it is lost.
 const FARTHEST: f64 = 0.3;
+/// Gap over the last one where a film is led from the centre.
+const NEARER: f64 = 0.8;
 /// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
 const FIRST_TERMS: usize = 2;
 /// Changes of the force over its size that lines may still make where Newton's method fails.
@@ -72,12 +74,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         motion: [f64; 2],
     ) -> (AlignedForce, bool) {
         self.begin(eps, driven(motion));
-        let mut settled = self.settle();
-        if !settled && self.is_warm {
-            self.is_warm = false;
-            self.begin(eps, driven(motion));
-            settled = self.settle();
-        }
+        let mut settled = self.settle() || self.approach(eps, driven(motion));
         self.is_warm = settled && self.differentiate();
         let found = if self.is_warm {
             let change = self.newton_change();
@@ -112,6 +109,22 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
                 self.is_warm = false;
             }
         }
+    }
+
+    /// Settles the fronts for a journal that comes from the centre, in steps that a film follows.
+    fn approach(&mut self, eps: f64, motion: [f64; 2]) -> bool {
+        let gap = 1.0 - eps;
+        let steps = (gap.ln() / NEARER.ln()).ceil().max(1.0);
+        self.is_warm = false;
+        for step in 0..steps as usize {
+            self.begin(1.0 - gap.powf(step as f64 / steps), motion);
+            self.is_warm = self.settle() && self.differentiate();
+            if !self.is_warm {
+                return false;
+            }
+        }
+        self.begin(eps, motion);
+        self.settle()
     }
 
     /// Parts of the fronts closest to the wishes, `count` terms of each.
