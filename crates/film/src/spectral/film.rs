@@ -98,7 +98,8 @@ impl OnlineFilm {
     ///   are those of the discrete force;
     /// - closure `reynolds`: 6e-5 up to 0.95, 3e-4 up to 0.99; its derivatives are those of the discrete force
     ///   too, with the fronts that bound the film moving along: differences give the same to 1e-6 of force over
-    ///   gap, and of force over motion, up to 0.99. Closer to contact fronts may have to be held: 1e-3.
+    ///   gap, and of force over motion, up to 0.99. Closer to contact
+    ///   a front may not be found, which is [`Outcome::NotConverged`].
     ///
     /// (`film/tests/online.rs`)
     ///

@@ -18,6 +18,14 @@ const SLOW: f64 = 0.3;
 const OVERSHOT: f64 = 0.5;
 /// Its changes are at most this, rad; a greater one means that it is lost.
 const FARTHEST: f64 = 0.3;
+/// Lines that would move settled fronts further than this, rad (mean square), show that those are none.
+const STRAY: f64 = 0.1;
+/// Gap over the last one where a film is led from the centre.
+const NEARER: f64 = 0.8;
+/// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
+const FIRST_TERMS: usize = 2;
+/// Lines that would move settled fronts further than this, rad (mean square), show that those are none.
+const STRAY: f64 = 0.1;
 /// Gap over the last one where a film is led from the centre.
 const NEARER: f64 = 0.8;
 /// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
@@ -84,10 +92,10 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             self.tangents(&change)
         } else {
             // Beyond a relative eccentricity of 0.99, elements may be too coarse for a front in a gap so wide that the
-            // force does not feel it.
-            settled = self
-                .film
-                .settle_linewise(&mut first_wishes(), Self::TERMS, UNFELT);
+            // force hardly feels it: it is held where it last settled.
+            self.film.go_to(eps, driven(motion));
+            settled = false;
+            self.solve();
             self.film.held_tangents()
         };
         if motion == [0.0; 2] {
@@ -118,13 +126,20 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
         self.is_warm = false;
         for step in 0..steps as usize {
             self.begin(1.0 - gap.powf(step as f64 / steps), motion);
+            let known = self.parts;
             self.is_warm = self.settle() && self.differentiate();
             if !self.is_warm {
+                self.parts = known;
                 return false;
             }
         }
         self.begin(eps, motion);
-        self.settle()
+        let known = self.parts;
+        let is_settled = self.settle();
+        if !is_settled {
+            self.parts = known;
+        }
+        is_settled
     }
 
     /// Parts of the fronts closest to the wishes, `count` terms of each.
@@ -176,7 +191,7 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             }
             let mut size = self.size(&change);
             if self.film.aspect.max(1.0) * size * size < self.film.accuracy.tolerance {
-                return true;
+                return self.is_wished();
             }
             if size > SLOW * last {
                 if !self.differentiate() {
@@ -197,6 +212,16 @@ impl<const M: usize, const G: usize, const L: usize> JointFilm<M, G, L> {
             (last, step) = (size, is_whole.then_some(change));
         }
         false
+    }
+
+    /// Whether each line would leave its fronts about where they are: mean fluxes may vanish elsewhere.
+    fn is_wished(&self) -> bool {
+        let (film, wishes) = (&self.film, self.film.wishes());
+        (0..2).all(|side| {
+            let angles = &film.fronts.angles[side];
+            let moves = std::array::from_fn(|g| wishes[side][g] - angles[g]);
+            film.fit.size_on_lines(&moves) < STRAY
+        })
     }
 
     /// How far a change moves the fronts, rad (mean square).
