@@ -24,12 +24,6 @@ const STRAY: f64 = 0.1;
 const NEARER: f64 = 0.8;
 /// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
 const FIRST_TERMS: usize = 2;
-/// Lines that would move settled fronts further than this, rad (mean square), show that those are none.
-const STRAY: f64 = 0.1;
-/// Gap over the last one where a film is led from the centre.
-const NEARER: f64 = 0.8;
-/// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
-const FIRST_TERMS: usize = 2;
 /// Changes of the force over its size that lines may still make where Newton's method fails.
 const UNFELT: f64 = 3e-6;
 
