@@ -24,8 +24,6 @@ const STRAY: f64 = 0.1;
 const NEARER: f64 = 0.8;
 /// Terms of fronts that each line moves by itself: those of more are unsteady at the ends.
 const FIRST_TERMS: usize = 2;
-/// Changes of the force over its size that lines may still make where Newton's method fails.
-const UNFELT: f64 = 3e-6;
 
 /// A film whose fronts are settled together, with `L - 2` parts in both.
 #[derive(Debug, Clone)]
