@@ -144,7 +144,7 @@ fn compare_tangents(bearing: &Bearing, eps: f64, directions: usize, step: f64, b
                     }
                     react(&mut film, &moved).reaction.film_force
                 });
-                let found = [0, 1].map(|row| tangent[row][column] * unit);
+                let found = [tangent[0][column] * unit, tangent[1][column] * unit];
                 worst[kind] = worst[kind].max(difference(found, expected) / force);
             }
         }
