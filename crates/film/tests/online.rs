@@ -144,7 +144,8 @@ fn compare_tangents(bearing: &Bearing, eps: f64, directions: usize, step: f64, b
                     }
                     react(&mut film, &moved).reaction.film_force
                 });
-                let found = [tangent[0][column] * unit, tangent[1][column] * unit];
+                let [along, across, ..] = tangent.map(|row| row[column] * unit);
+                let found = [along, across];
                 worst[kind] = worst[kind].max(difference(found, expected) / force);
             }
         }
