@@ -109,63 +109,99 @@ fn half_film_has_the_force_of_a_direct_solution() {
     }
 }
 
-/// Derivatives of the discrete force, by central differences of the force itself.
-fn compare_tangents(film: &mut OnlineFilm, step: f64, bar: f64) {
-    let mut worst = [0.0_f64; 2];
-    let bearing = film.bearing().clone();
-    let c = bearing.radial_clearance;
-    for (eps, direction) in [(0.0, 0.4), (0.2, 2.9), (0.7, 4.5), (0.93, 1.3), (0.93, 5.9)] {
-        for place in [0.3, 2.2, 4.1] {
-            let state = moving(&bearing, eps, place, direction);
-            let seen = react(film, &state);
-            let scale = size(seen.reaction.film_force);
-            for column in 0..2 {
-                let mut ends = [[0.0; 2]; 2];
-                let mut rates = [[0.0; 2]; 2];
-                let shift = step * (1.0 - eps);
-                for (end, sign) in [1.0, -1.0].into_iter().enumerate() {
-                    let mut moved = state;
-                    moved.position[column] += sign * shift * c;
-                    ends[end] = react(film, &moved).reaction.film_force;
-                    let mut moved = state;
-                    moved.velocity[column] += sign * step * c * SPEED;
-                    rates[end] = react(film, &moved).reaction.film_force;
-                }
-                for row in 0..2 {
-                    let by_position = (ends[0][row] - ends[1][row]) / (2.0 * shift * c);
-                    let off = (seen.tangent.by_position[row][column] - by_position).abs();
-                    let relative = off * c * (1.0 - eps) / scale;
-                    worst[0] = worst[0].max(relative);
-                    assert!(relative < bar, "eps {eps} {place} by position: {relative}");
-                    let by_rate = (rates[0][row] - rates[1][row]) / (2.0 * step * c * SPEED);
-                    let off = (seen.tangent.by_rate[row][column] - by_rate).abs();
-                    let relative = off * c * SPEED / scale;
-                    worst[1] = worst[1].max(relative);
-                    assert!(relative < bar, "eps {eps} {place} by rate: {relative}");
-                }
-            }
+/// The derivative at 0, by two central differences extrapolated to order four (Richardson).
+fn slope(step: f64, mut force: impl FnMut(f64) -> [f64; 2]) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for (by, weight) in [(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)] {
+        let force = force(by * step);
+        for row in 0..2 {
+            sum[row] += weight / (12.0 * step) * force[row];
         }
     }
-    println!("by position {:.1e}, by rate {:.1e}", worst[0], worst[1]);
+    sum
+}
+
+/// Derivatives of the discrete force, by differences of the force itself: over force over gap by position,
+/// over force over motion by rate.
+fn compare_tangents(bearing: &Bearing, eps: f64, directions: usize, step: f64, bar: f64) {
+    let mut film = online(bearing);
+    let mut worst = [0.0_f64; 2];
+    let c = bearing.radial_clearance;
+    for k in 0..directions {
+        let direction = 0.1 + TAU * k as f64 / directions as f64;
+        let state = moving(bearing, eps, 0.3 + 1.9 * k as f64, direction);
+        let seen = react(&mut film, &state);
+        let force = size(seen.reaction.film_force);
+        let units = [(1.0 - eps) * c, SPEED * c];
+        let tangents = [seen.tangent.by_position, seen.tangent.by_rate];
+        for (kind, (unit, tangent)) in units.into_iter().zip(tangents).enumerate() {
+            for column in 0..2 {
+                let expected = slope(step, |by| {
+                    let mut moved = state;
+                    match kind {
+                        0 => moved.position[column] += by * unit,
+                        _ => moved.velocity[column] += by * unit,
+                    }
+                    react(&mut film, &moved).reaction.film_force
+                });
+                let [along, across, ..] = tangent.map(|row| row[column] * unit);
+                let found = [along, across];
+                worst[kind] = worst[kind].max(difference(found, expected) / force);
+            }
+        }
+        let width_ratio = bearing.width / bearing.diameter;
+        assert!(
+            worst[0].max(worst[1]) < bar,
+            "B/D {width_ratio:.2} eps {eps} direction {direction}: {worst:?}"
+        );
+    }
+    println!("eps {eps}: {:.1e}, {:.1e}", worst[0], worst[1]);
 }
 
 #[test]
 fn tangents_of_the_half_film_equal_differences() {
     for width_ratio in [0.4, 1.0] {
-        compare_tangents(
-            &mut online(&bearing(width_ratio, Cavitation::Gumbel)),
-            1e-5,
-            1e-6,
-        );
+        for eps in [0.0, 0.2, 0.7, 0.93] {
+            compare_tangents(
+                &bearing(width_ratio, Cavitation::Gumbel),
+                eps,
+                6,
+                1e-5,
+                1e-6,
+            );
+        }
     }
 }
 
-/// They are those at fixed fronts, which the force does not feel as far as the fronts are right.
+/// With fronts that follow the journal, held ones being 1e-4 to 1e-3 off.
 #[test]
 fn tangents_of_the_fitted_film_equal_differences() {
-    for width_ratio in [0.4, 1.0] {
-        let mut film = online(&bearing(width_ratio, Cavitation::Reynolds));
-        compare_tangents(&mut film, 2e-3, 1e-3);
+    for width_ratio in [0.25, 0.5, 0.75, 1.0, 1.5] {
+        println!("B/D {width_ratio}");
+        for eps in [0.0, 0.2, 0.6, 0.8, 0.9, 0.95, 0.99] {
+            let bearing = bearing(width_ratio, Cavitation::Reynolds);
+            compare_tangents(&bearing, eps, 12, 1e-3, 1e-6);
+        }
+    }
+}
+
+/// A film that knows a neighbour's fronts settles where one that knows none does.
+#[test]
+fn forces_of_the_fitted_film_do_not_remember() {
+    for width_ratio in [0.25, 0.6, 1.5] {
+        let new = || AlignedFilm::new(Cavitation::Reynolds, width_ratio, Precision::OnLine);
+        let mut warm = new().expect("a plain film");
+        for k in 0..120 {
+            let share = f64::from(k) / 120.0;
+            let (eps, direction) = (0.5 + 0.45 * (3.0 * TAU * share).sin(), TAU * share);
+            let motion = [direction.cos(), direction.sin()];
+            let (seen, _) = warm.force(eps, motion).expect("open");
+            let mut cold = new().expect("a plain film");
+            let (expected, outcome) = cold.force(eps, motion).expect("open");
+            assert_eq!(outcome, Outcome::Converged);
+            let off = difference(seen.force, expected.force) / size(expected.force);
+            assert!(off < 1e-8, "B/D {width_ratio} eps {eps} {direction}: {off}");
+        }
     }
 }
 
@@ -216,7 +252,7 @@ fn fitted_film_has_the_force_of_a_grid() {
         assert_eq!(grid.outcome, Outcome::Converged);
         let exact = [grid.integrals.p_cos, grid.integrals.p_sin];
         let known = size([grid.error.p_cos, grid.error.p_sin]) / size(exact);
-        for (precision, bar) in [(Precision::OnLine, 2e-4), (Precision::Fine, 2e-5)] {
+        for (precision, bar) in [(Precision::OnLine, 6e-5), (Precision::Fine, 2e-5)] {
             let mut film =
                 AlignedFilm::new(Cavitation::Reynolds, width_ratio, precision).expect("plain");
             let (seen, _) = film
@@ -257,8 +293,8 @@ fn on_line_and_fine_films_agree() {
                 let bar = match cavitation {
                     Cavitation::Gumbel if eps < 0.96 => 4e-5,
                     Cavitation::Gumbel => 1.5e-4,
-                    _ if eps < 0.96 => 2e-4,
-                    _ => 3e-4,
+                    _ if eps < 0.96 => 4e-5,
+                    _ => 6e-5,
                 };
                 assert!(
                     worst < bar,
@@ -374,7 +410,7 @@ fn figures_of_the_fitted_film_are_those_of_a_grid() {
 #[test]
 fn force_is_homogeneous_mirrored_and_turns_with_the_frame() {
     // Fronts are settled to a tolerance.
-    for (cavitation, exact) in [(Cavitation::Gumbel, 1e-11), (Cavitation::Reynolds, 1e-5)] {
+    for (cavitation, exact) in [(Cavitation::Gumbel, 1e-11), (Cavitation::Reynolds, 1e-8)] {
         compare_motions(&bearing(0.5, cavitation), exact);
     }
 }

@@ -9,7 +9,7 @@
 //! Reference: Marsalek, Novotny, Drapal, Pistek (2012), equations 4 to 9.
 
 use super::answer::{AlignedFigures, AlignedForce};
-use super::fitted_film::{Accuracy, FittedFilm};
+use super::fitted_film::{Accuracy, Crowding, JointFilm, LinewiseFilm};
 use super::half_film::HalfFilm;
 use crate::bearing::Cavitation;
 use crate::force::{FilmError, Outcome};
@@ -45,11 +45,11 @@ enum Kernel {
     HalfWide(Box<HalfFilm<6, 6>>),
     HalfFine(Box<HalfFilm<8, 8>>),
     HalfFinest(Box<HalfFilm<12, 12>>),
-    FittedNarrow(Box<FittedFilm<4, 6>>),
-    FittedWide(Box<FittedFilm<5, 7>>),
-    FittedWider(Box<FittedFilm<6, 8>>),
-    FittedFine(Box<FittedFilm<7, 9>>),
-    FittedFinest(Box<FittedFilm<9, 11>>),
+    FittedNarrow(Box<JointFilm<4, 6, 8>>),
+    FittedWide(Box<JointFilm<5, 7, 8>>),
+    FittedWider(Box<JointFilm<6, 8, 8>>),
+    FittedFine(Box<LinewiseFilm<7, 9>>),
+    FittedFinest(Box<LinewiseFilm<9, 11>>),
 }
 
 /// Largest width over diameter that four shapes on as many lines are enough for.
@@ -58,10 +58,19 @@ const NARROW: f64 = 0.6;
 const MIDDLE: f64 = 0.9;
 /// Largest width over diameter that five are enough for.
 const WIDE: f64 = 1.0;
-/// Modulus of the substitution of a fitted film over the relative eccentricity.
+/// Modulus of the substitution of a fitted film for tables over the relative eccentricity.
 const MODULUS: f64 = 0.96;
 /// The same where nodes crowd in the narrowest gap.
 const CROWDED: f64 = 0.985;
+/// Power of the substitution on line.
+const POWER: f64 = 0.75;
+/// How long elements at the fronts are on line, over the others: without shorter ones, or fewer of them, a front in the
+/// widest gap is lost from a relative eccentricity of 0.97.
+const END: f64 = 0.5;
+/// Error of the force over its size that the fronts of a film for tables may leave.
+const UNFELT: f64 = 1e-7;
+/// The same on line, before what the fronts still have to move is accounted for.
+const SETTLED: f64 = 1e-11;
 
 impl AlignedFilm {
     /// Film of a bearing of this width over diameter, all ends at cavitation pressure, cyclic.
@@ -80,16 +89,19 @@ impl AlignedFilm {
         }
         let d_over_b = 1.0 / width_ratio;
         let is_narrow = width_ratio <= NARROW;
-        let fitted = |elements, degree, terms, tolerance| Accuracy {
+        let even = |elements, degree, share| Accuracy {
             elements,
             degree,
-            terms,
-            modulus: MODULUS,
-            tolerance,
+            end: 1.0,
+            crowding: Crowding::Share(share),
+            tolerance: UNFELT,
         };
-        let crowded = |elements, degree, terms| Accuracy {
-            modulus: CROWDED,
-            ..fitted(elements, degree, terms, 1e-7)
+        let on_line = Accuracy {
+            elements: 6,
+            degree: 6,
+            end: END,
+            crowding: Crowding::Graded(POWER),
+            tolerance: SETTLED,
         };
         let kernel = match (cavitation, precision) {
             (Cavitation::Gumbel, Precision::OnLine) if is_narrow => {
@@ -111,27 +123,24 @@ impl AlignedFilm {
                 Kernel::HalfFinest(Box::new(HalfFilm::new(d_over_b, 512)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if is_narrow => {
-                let accuracy = fitted(5, 6, 3, 3e-6);
-                Kernel::FittedNarrow(Box::new(FittedFilm::new(d_over_b, accuracy)))
+                Kernel::FittedNarrow(Box::new(JointFilm::new(d_over_b, on_line)))
             }
             (Cavitation::Reynolds, Precision::OnLine) if width_ratio > WIDE => {
-                let accuracy = fitted(6, 7, 3, 3e-6);
-                Kernel::FittedWider(Box::new(FittedFilm::new(d_over_b, accuracy)))
+                Kernel::FittedWider(Box::new(JointFilm::new(d_over_b, on_line)))
             }
             (Cavitation::Reynolds, Precision::OnLine) => {
-                let accuracy = fitted(6, 6, 3, 3e-6);
-                Kernel::FittedWide(Box::new(FittedFilm::new(d_over_b, accuracy)))
+                Kernel::FittedWide(Box::new(JointFilm::new(d_over_b, on_line)))
             }
             (Cavitation::Reynolds, Precision::Fine) => {
-                let accuracy = fitted(8, 7, 4, 1e-7);
-                Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, accuracy)))
+                let accuracy = even(8, 7, MODULUS);
+                Kernel::FittedFine(Box::new(LinewiseFilm::new(d_over_b, accuracy, 4)))
             }
-            (Cavitation::Reynolds, Precision::NearContact) => {
-                Kernel::FittedFine(Box::new(FittedFilm::new(d_over_b, crowded(8, 8, 5))))
-            }
-            (Cavitation::Reynolds, Precision::Finest) => {
-                Kernel::FittedFinest(Box::new(FittedFilm::new(d_over_b, crowded(10, 8, 6))))
-            }
+            (Cavitation::Reynolds, Precision::NearContact) => Kernel::FittedFine(Box::new(
+                LinewiseFilm::new(d_over_b, even(8, 8, CROWDED), 5),
+            )),
+            (Cavitation::Reynolds, Precision::Finest) => Kernel::FittedFinest(Box::new(
+                LinewiseFilm::new(d_over_b, even(10, 8, CROWDED), 6),
+            )),
             (Cavitation::MassConserving, _) => {
                 return Err(FilmError::Unsupported {
                     reason: "a film that remembers is not solved on line: use model = \"field\" for \

@@ -152,6 +152,8 @@ impl Substitution {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SommerfeldAngle {
     modulus: f64,
+    /// How it grows with the relative eccentricity.
+    growth: f64,
     /// sqrt(1 - m^2).
     root: f64,
     /// N at cos s = 0 and its slope by cos s.
@@ -161,9 +163,21 @@ pub(super) struct SommerfeldAngle {
 impl SommerfeldAngle {
     /// At a relative eccentricity, with a modulus of a share of it.
     pub(super) fn new(eps: f64, share: f64) -> Self {
-        let modulus = share * eps;
+        Self::of_modulus(eps, share * eps, share)
+    }
+
+    /// With a modulus m that falls behind as the gap closes: `(1 + m)/(1 - m) = ((1 + e)/(1 - e))^power`.
+    pub(super) fn graded(eps: f64, power: f64) -> Self {
+        let ratio = ((1.0 - eps) / (1.0 + eps)).powf(power);
+        let modulus = (1.0 - ratio) / (1.0 + ratio);
+        let growth = power * (1.0 - modulus * modulus) / ((1.0 - eps) * (1.0 + eps));
+        Self::of_modulus(eps, modulus, growth)
+    }
+
+    fn of_modulus(eps: f64, modulus: f64, growth: f64) -> Self {
         Self {
             modulus,
+            growth,
             root: ((1.0 - modulus) * (1.0 + modulus)).sqrt(),
             gap: [1.0 - eps * modulus, modulus - eps],
         }
@@ -172,6 +186,18 @@ impl SommerfeldAngle {
     /// theta of s, rad.
     pub(super) fn angle(&self, s: f64) -> f64 {
         turned(s, [1.0 - self.modulus, 1.0 + self.modulus])
+    }
+
+    /// Where theta has this cos and sin: dtheta/ds, the changes of its logarithm by s and by relative
+    /// eccentricity at that s, and the change of theta by relative eccentricity there.
+    pub(super) fn rates(&self, [cos, sin]: [f64; 2]) -> (f64, [f64; 2], f64) {
+        let per_root = 1.0 / self.root;
+        let share = self.growth * per_root * per_root;
+        (
+            (1.0 - self.modulus * cos) * per_root,
+            [self.modulus * sin * per_root, -share * cos],
+            -share * sin,
+        )
     }
 
     /// s of theta, rad.

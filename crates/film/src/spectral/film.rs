@@ -96,8 +96,10 @@ impl OnlineFilm {
     /// For B/D from 0.25 to 1.5 and all directions of motion the force is, by its size, within
     /// - closure `gumbel`: 4e-5 up to a relative eccentricity of 0.95, 1.5e-4 up to 0.99; its derivatives
     ///   are those of the discrete force;
-    /// - closure `reynolds`: 2e-4 up to 0.95, 3e-4 up to 0.99; its derivatives leave the fronts that bound
-    ///   the film where they are and are within 1e-3 of force over gap, and of force over motion.
+    /// - closure `reynolds`: 6e-5 up to 0.95, 3e-4 up to 0.99; its derivatives are those of the discrete force
+    ///   too, with the fronts that bound the film moving along: differences give the same to 1e-6 of force over
+    ///   gap, and of force over motion, up to 0.99. Closer to contact
+    ///   a front may not be found, which is [`Outcome::NotConverged`].
     ///
     /// (`film/tests/online.rs`)
     ///

@@ -5,15 +5,17 @@
 //! p = 0 all around it;   H^3 p_theta = 0 at a and b    which places the fronts
 //! ```
 //! The film is mapped onto a rectangle between its fronts, where pressure is smooth: elements of high
-//! degree around, even polynomials across. The fronts move by Newton's method: the pressure that is
-//! zero on a front which is off by d is right to order d^2, and the front belongs where the flux across
-//! it has been used up by the sink behind it,
+//! degree around, even polynomials across. The pressure that is zero on a front which is off by d is right
+//! to order d^2, and so is the force. The front belongs where the flux across it has been used up by the
+//! sink behind it,
 //!
 //! ```text
 //! |w| (sin(theta' - omega) - sin(theta - omega)) = (1 + (D/B)^2 front'^2) H^3 p_theta
 //! ```
-//! with omega the angle of the motion. The force follows to order d^2 too, so that a few updates
-//! suffice, and its derivatives need no third solution: `u dA/de p` with the two u of unit motions.
+//! with omega the angle of the motion. Two ways to settle the fronts: each line by itself until the force
+//! no longer feels it (`linewise`), for tables; all together by Newton's method until nothing is left of
+//! their conditions, the mean flux weighted with each term of a front, with a force whose derivatives are
+//! exact (`joint`, `moving`), on line.
 //! Limits: the film is torn apart on every line across the width; it is, up to widths of some
 //! diameters. Pressures over 12 eta R^2/c^2, motion over c.
 //! References: H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber, Das Schwimmlager, VDI 1933; trial free
@@ -25,9 +27,16 @@ use super::around::SommerfeldAngle;
 use super::profile::ProfileMatrix;
 use super::quadrature::{Element, gauss_legendre};
 use fronts::{FrontFit, Fronts};
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+pub(super) use joint::JointFilm;
+pub(super) use linewise::LinewiseFilm;
+
+mod figures;
 mod fronts;
+mod joint;
+mod linewise;
+mod moving;
 mod strip;
 
 /// How far beyond the half turn with w n > 0 a cold film is thought to reach, rad.
@@ -41,7 +50,7 @@ const SLOPE_CAP: f64 = 0.5;
 /// More updates than this mean that the fronts do not settle.
 const MOST_UPDATES: usize = 14;
 
-/// Film of an aligned journal between fitted fronts; `M` shapes across, `G` lines on half the width.
+/// Film of an aligned journal between given fronts; `M` shapes across, `G` lines on half the width.
 #[derive(Debug, Clone)]
 pub(super) struct FittedFilm<const M: usize, const G: usize> {
     /// (D/B)^2.
@@ -49,6 +58,8 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     accuracy: Accuracy,
     shapes: Shapes<M, G>,
     element: Element,
+    /// Where elements meet, as a part of the way between the fronts.
+    breaks: Vec<f64>,
     fit: FrontFit<G>,
     matrix: ProfileMatrix<M>,
     /// Right-hand sides for motion along and across, and the answers u, by unknown.
@@ -59,10 +70,8 @@ pub(super) struct FittedFilm<const M: usize, const G: usize> {
     /// The state of the last solution.
     eps: f64,
     motion: [f64; 2],
-    /// Fronts of the last solution, from the direction of motion, and where they would go next, rad.
+    /// Its fronts, from the direction of motion.
     fronts: Fronts<G>,
-    wishes: [[f64; G]; 2],
-    is_warm: bool,
 }
 
 /// What a fitted film is asked for.
@@ -72,12 +81,30 @@ pub(super) struct Accuracy {
     pub elements: usize,
     /// Their degree.
     pub degree: usize,
-    /// Terms of the fronts.
-    pub terms: usize,
-    /// Modulus of the substitution over the relative eccentricity.
-    pub modulus: f64,
-    /// Change of the force over its size by a further update.
+    /// How long the elements at the fronts are, over the others.
+    pub end: f64,
+    pub crowding: Crowding,
+    /// Error of the force over its size that fronts may leave.
     pub tolerance: f64,
+}
+
+/// How nodes crowd in the narrowest gap: the modulus of the substitution.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Crowding {
+    /// A share of the relative eccentricity.
+    Share(f64),
+    /// [`SommerfeldAngle::graded`] with this power: less than the gap asks for as it closes, so that nodes are left
+    /// for a front in the widest gap.
+    Graded(f64),
+}
+
+impl Crowding {
+    fn at(self, eps: f64) -> SommerfeldAngle {
+        match self {
+            Self::Share(share) => SommerfeldAngle::new(eps, share),
+            Self::Graded(power) => SommerfeldAngle::graded(eps, power),
+        }
+    }
 }
 
 /// Even polynomials on the lines.
@@ -106,7 +133,7 @@ impl<const M: usize, const G: usize> Shapes<M, G> {
 
 impl<const M: usize, const G: usize> FittedFilm<M, G> {
     /// For a film of this D/B.
-    pub(super) fn new(d_over_b: f64, accuracy: Accuracy) -> Self {
+    fn new(d_over_b: f64, accuracy: Accuracy) -> Self {
         let Accuracy {
             elements, degree, ..
         } = accuracy;
@@ -120,98 +147,43 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
             accuracy,
             shapes: Shapes::new(),
             element: Element::new(degree),
+            breaks: breaks(elements, accuracy.end),
             fit: FrontFit::new(),
             matrix: ProfileMatrix::new(starts),
             sources: vec![[0.0; 2]; nodes * M],
             answers: vec![[0.0; 2]; nodes * M],
             points: vec![strip::Point::default(); elements * (degree + 1) * G],
-            map: SommerfeldAngle::new(0.0, accuracy.modulus),
+            map: accuracy.crowding.at(0.0),
             eps: 0.0,
             motion: [1.0, 0.0],
             fronts: Fronts {
                 angles: [[0.0; G]; 2],
                 slopes: [[0.0; G]; 2],
             },
-            wishes: [[0.0; G]; 2],
-            is_warm: false,
         }
     }
 
-    /// Force and derivatives at a relative eccentricity below 1, for a motion along and across the line
-    /// of centres, and whether the fronts settled.
-    pub(super) fn force(&mut self, eps: f64, motion: [f64; 2]) -> (AlignedForce, bool) {
-        // A film at rest is the one that would form as the gap closes.
-        let is_at_rest = motion == [0.0; 2];
-        let driven = if is_at_rest { [1.0, 0.0] } else { motion };
-        self.begin(eps, driven);
-        let mut settled = self.settle();
-        if !settled && self.is_warm {
-            self.is_warm = false;
-            self.begin(eps, driven);
-            settled = self.settle();
-        }
-        self.is_warm = settled;
-        let mut found = self.tangents();
-        if is_at_rest {
-            found.force = [0.0; 2];
-            found.by_eccentricity = [0.0; 2];
-        }
-        (found, settled)
-    }
-
-    /// Fronts to begin with: those of the last film if it was a similar one.
-    fn begin(&mut self, eps: f64, motion: [f64; 2]) {
+    /// Goes to another state; by what the relative eccentricity rises and the motion turns, rad, if its
+    /// film is similar to the last.
+    fn go_to(&mut self, eps: f64, motion: [f64; 2]) -> Option<[f64; 2]> {
         let turn = cross(self.motion, motion).atan2(dot(self.motion, motion));
-        let near = (eps - self.eps).abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3;
+        let rise = eps - self.eps;
         self.eps = eps;
         self.motion = motion;
-        self.map = SommerfeldAngle::new(eps, self.accuracy.modulus);
-        if !(self.is_warm && near) {
-            let reach = FRAC_PI_2 + FIRST_REACH;
-            self.wishes = [[-reach; G], [reach; G]];
-            self.is_warm = false;
-        }
+        self.map = self.accuracy.crowding.at(eps);
+        (rise.abs() < 0.3 * (1.0 - eps) && turn.abs() < 0.3).then_some([rise, turn])
     }
 
-    /// Updates until a further one would not change the force.
-    fn settle(&mut self) -> bool {
-        let tolerance = self.accuracy.tolerance;
-        let mut terms = self.accuracy.terms.min(3);
-        let (mut before, mut last_change) = ([0.0; 2], f64::INFINITY);
-        for update in 0..MOST_UPDATES {
-            self.fronts = self.fit.fit(&self.wishes, terms);
-            if !self.solve() {
-                return false;
-            }
-            let force = self.force_of_answers();
-            let size = force[0].hypot(force[1]);
-            let change = (force[0] - before[0]).hypot(force[1] - before[1]) / size;
-            let shift = self.move_fronts(terms);
-            // The force follows the fronts to second order, and so do its changes one another.
-            let by_shift = self.aspect.max(1.0) * shift * shift;
-            let by_change = (change * change / last_change).max(0.1 * change);
-            let is_done = by_shift < tolerance || (update > 1 && by_change < tolerance);
-            if terms == self.accuracy.terms && is_done {
-                return true;
-            }
-            if shift < 0.05 || update > 3 {
-                terms = self.accuracy.terms;
-            }
-            (before, last_change) = (force, change);
-        }
-        last_change < 10.0 * tolerance
-    }
-
-    /// Lets the fronts go where the flux across them is used up; how far they move, rad (mean square).
-    fn move_fronts(&mut self, terms: usize) -> f64 {
+    /// Where each line would have its fronts, rad: where the flux across them is used up.
+    fn wishes(&self) -> [[f64; G]; 2] {
         let speed = self.motion[0].hypot(self.motion[1]);
         let mut wishes = [[0.0; G]; 2];
         for g in 0..G {
             for side in 0..2 {
                 let (at, slope) = (self.fronts.angles[side][g], self.fronts.slopes[side][g]);
                 let steep = 1.0 + (self.aspect * slope * slope).min(SLOPE_CAP);
-                let used = at.sin() + steep * self.flux(side, g) / speed;
-                let beyond = std::f64::consts::PI - used.clamp(-1.0, 1.0).asin();
+                let used = at.sin() + steep * dot(self.fluxes(side, g), self.motion) / speed;
+                let beyond = PI - used.clamp(-1.0, 1.0).asin();
                 let wish = if side == 1 { beyond } else { beyond - TAU };
                 wishes[side][g] = at + (wish - at).clamp(-LONGEST_MOVE, LONGEST_MOVE);
             }
@@ -221,19 +193,67 @@ impl<const M: usize, const G: usize> FittedFilm<M, G> {
                 wishes[1][g] -= 0.5 * over;
             }
         }
-        self.wishes = wishes;
-        let next = self.fit.fit(&wishes, terms);
-        let moved = |side: usize| -> f64 {
-            let change =
-                std::array::from_fn(|g| next.angles[side][g] - self.fronts.angles[side][g]);
-            self.fit.size(&change)
-        };
-        moved(0).hypot(moved(1))
+        wishes
     }
 
     /// Angle of the motion from the line of centres, rad.
     fn direction(&self) -> f64 {
         self.motion[1].atan2(self.motion[0])
+    }
+
+    /// Derivatives by the motion: of degree 1 in its size, and by its direction.
+    fn by_motion(&self, force: [f64; 2], by_turn: [f64; 2]) -> [[f64; 2]; 2] {
+        let per_square = 1.0 / dot(self.motion, self.motion);
+        let [along, across] = self.motion.map(|part| part * per_square);
+        [0, 1].map(|row| {
+            [
+                force[row] * along - by_turn[row] * across,
+                force[row] * across + by_turn[row] * along,
+            ]
+        })
+    }
+}
+
+/// Where elements meet, those at the fronts shorter than the others by a factor.
+fn breaks(elements: usize, end: f64) -> Vec<f64> {
+    let last = elements - 1;
+    let size = |element: usize| {
+        if element == 0 || element == last {
+            end
+        } else {
+            1.0
+        }
+    };
+    let whole: f64 = (0..elements).map(size).sum();
+    let mut at = 0.0;
+    let inner = (0..last).map(|element| {
+        at += size(element);
+        at / whole
+    });
+    std::iter::once(0.0).chain(inner).chain([1.0]).collect()
+}
+
+/// Where the fronts of a film are thought to be that nothing is known of, rad.
+const fn first_wishes<const G: usize>() -> [[f64; G]; 2] {
+    let reach = FRAC_PI_2 + FIRST_REACH;
+    [[-reach; G], [reach; G]]
+}
+
+/// A film at rest is the one that would form as the gap closes: the motion to solve for.
+fn driven(motion: [f64; 2]) -> [f64; 2] {
+    if motion == [0.0; 2] {
+        [1.0, 0.0]
+    } else {
+        motion
+    }
+}
+
+/// What of its answer is left at rest.
+fn at_rest(found: AlignedForce) -> AlignedForce {
+    AlignedForce {
+        force: [0.0; 2],
+        by_eccentricity: [0.0; 2],
+        ..found
     }
 }
 
@@ -256,12 +276,12 @@ mod tests {
             let accuracy = |elements, degree| Accuracy {
                 elements,
                 degree,
-                terms: 4,
-                modulus: 0.96,
+                end: 1.0,
+                crowding: Crowding::Share(0.96),
                 tolerance: 1e-7,
             };
-            let mut fine = FittedFilm::<7, 9>::new(d_over_b, accuracy(8, 7));
-            let mut finer = FittedFilm::<9, 11>::new(d_over_b, accuracy(10, 8));
+            let mut fine = LinewiseFilm::<7, 9>::new(d_over_b, accuracy(8, 7), 4);
+            let mut finer = LinewiseFilm::<9, 11>::new(d_over_b, accuracy(10, 8), 4);
             for eps in [0.2, 0.8, 0.95, 0.99] {
                 for k in 0..6 {
                     let direction = 0.2 + TAU * f64::from(k) / 6.0;

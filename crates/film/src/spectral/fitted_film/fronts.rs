@@ -18,6 +18,8 @@ pub(super) struct FrontFit<const G: usize> {
     terms: [[[f64; G]; 2]; MOST_TERMS],
     /// Weights of the fit.
     weights: [f64; G],
+    /// The terms by the weights of their conditions.
+    moments: [[f64; G]; MOST_TERMS],
 }
 
 /// The fronts that bound the film, the first and the last in the sense of the angle.
@@ -53,31 +55,70 @@ impl<const G: usize> FrontFit<G> {
             let size = weighted(&weights, &value, &value).sqrt();
             terms[term] = [value.map(|v| v / size), slope.map(|v| v / size)];
         }
-        Self { terms, weights }
+        let moments = terms.map(|[value, _]| {
+            std::array::from_fn(|g| points[g][1] * (1.0 - places[g] * places[g]) * value[g])
+        });
+        Self {
+            terms,
+            weights,
+            moments,
+        }
     }
 
     /// Fronts of `count` terms closest to the wishes.
     pub(super) fn fit(&self, wishes: &[[f64; G]; 2], count: usize) -> Fronts<G> {
-        let mut fronts = Fronts {
-            angles: [[0.0; G]; 2],
-            slopes: [[0.0; G]; 2],
-        };
-        for side in 0..2 {
-            for [value, slope] in &self.terms[..count.min(MOST_TERMS)] {
-                let share = weighted(&self.weights, &wishes[side], value);
-                for g in 0..G {
-                    fronts.angles[side][g] += share * value[g];
-                    fronts.slopes[side][g] += share * slope[g];
-                }
+        let [first, last] = [0, 1].map(|side| self.front(&self.parts(&wishes[side], count)));
+        Fronts {
+            angles: [first[0], last[0]],
+            slopes: [first[1], last[1]],
+        }
+    }
+
+    /// Parts of `count` terms in the front closest to the wishes for it.
+    pub(super) fn parts(&self, wishes: &[f64; G], count: usize) -> [f64; MOST_TERMS] {
+        let mut parts = [0.0; MOST_TERMS];
+        for (part, [value, _]) in parts.iter_mut().zip(&self.terms).take(count) {
+            *part = weighted(&self.weights, wishes, value);
+        }
+        parts
+    }
+
+    /// Angles and slopes of a front of these parts.
+    pub(super) fn front(&self, parts: &[f64]) -> [[f64; G]; 2] {
+        let mut front = [[0.0; G]; 2];
+        for (part, term) in parts.iter().zip(&self.terms) {
+            for g in 0..G {
+                front[0][g] += part * term[0][g];
+                front[1][g] += part * term[1][g];
             }
         }
-        fronts
+        front
+    }
+
+    /// A term and its slope by Z on the lines.
+    pub(super) fn term(&self, term: usize) -> &[[f64; G]; 2] {
+        &self.terms[term]
+    }
+
+    /// What the flux across a front counts on the lines in the condition of a term: the term by 1 - Z^2, as the
+    /// pressure before the front falls to the ends.
+    pub(super) fn moment(&self, term: usize) -> &[f64; G] {
+        &self.moments[term]
     }
 
     /// Weighted mean square of a change of angles, rad.
-    pub(super) fn size(&self, change: &[f64; G]) -> f64 {
-        let whole: f64 = self.weights.iter().sum();
-        (weighted(&self.weights, change, change) / whole).sqrt()
+    pub(super) fn size_on_lines(&self, change: &[f64; G]) -> f64 {
+        (weighted(&self.weights, change, change) / self.whole()).sqrt()
+    }
+
+    /// The same of a change of both fronts by these parts.
+    pub(super) fn size_of_parts(&self, parts: &[f64]) -> f64 {
+        let square: f64 = parts.iter().map(|part| part * part).sum();
+        (square / self.whole()).sqrt()
+    }
+
+    fn whole(&self) -> f64 {
+        self.weights.iter().sum()
     }
 }
 
