@@ -9,8 +9,8 @@ use sommerfeld_bearing::{
     RunningInEnd, WornCycle, WornRoughness, find_equilibrium, journal_orbit, run_in, wear,
 };
 use sommerfeld_film::{
-    Bearing, Cavitation, ContactLaw, FilmError, FilmForce, FilmSolver, Finish, GreenwoodTripp,
-    JournalState, Outcome, RoughFinish, Roughness,
+    Cavitation, ContactLaw, FilmError, FilmForce, FilmSolver, Finish, GreenwoodTripp, JournalState,
+    Outcome, RoughFinish, Roughness,
 };
 use sommerfeld_oil::Lubricant;
 use std::f64::consts::PI;
@@ -138,7 +138,7 @@ fn a_tilted_journal_runs_its_edge_in() {
     assert!(*depth > SIGMA, "{depth}");
     let edge = deepest % 16;
     assert!(edge == 0 || edge == 15, "{edge}");
-    let after = tilted(&ran.bearing).unwrap();
+    let after = tilted(&ran).unwrap();
     assert_eq!(after.outcome, Outcome::Converged);
 }
 
@@ -158,7 +158,8 @@ fn scarred(cells: usize, steps: usize) -> Vec<(f64, [f64; 3])> {
     };
     let mut seen = Vec::new();
     let ran = run_in(&bearing, &settings, |ran| {
-        let mut film = FilmSolver::new(&ran.bearing, &oil, [cells, 8])?;
+        let bearing = &ran.bearing;
+        let mut film = FilmSolver::new(bearing, &oil, [cells, 8])?;
         let request = EquilibriumRequest {
             load: [0.0, -LOAD],
             moment: None,

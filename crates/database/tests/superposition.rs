@@ -264,7 +264,7 @@ fn butenschoen() {
 }
 
 /// Near the centre the wedge of tilted journals within 0.3 % of films solved on finer grids, from no tilt to four
-/// times the eccentricity; at ten times, where two films begin to become one, within 1 %.
+/// times the eccentricity; at ten times, where the curves turn within a few hundredths, within 1 %.
 #[test]
 fn near_the_centre() {
     let table = centred();
