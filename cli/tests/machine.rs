@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Table, sommerfeld, summary};
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::Connection;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -189,14 +189,17 @@ fn run_until(mut child: Child, kill: &Kill, results: &Path) -> Option<i32> {
     }
 }
 
-/// How many orbits a run at work has recorded; its ledger is only looked at, never written.
+/// How many orbits a run at work has recorded, by a copy of its ledger: who opens the ledger itself makes files
+/// beside it, even while the run takes it away.
 fn recorded(results: &Path) -> usize {
-    // Without its log the ledger is being made or taken away.
-    if !results.join("ledger.sqlite-wal").exists() {
-        return 0;
+    let copy = tempfile::tempdir().unwrap();
+    for name in ["ledger.sqlite", "ledger.sqlite-wal"] {
+        // Without its log the ledger is being made or taken away.
+        if fs::copy(results.join(name), copy.path().join(name)).is_err() {
+            return 0;
+        }
     }
-    let look = OpenFlags::SQLITE_OPEN_READ_ONLY;
-    let count = Connection::open_with_flags(results.join("ledger.sqlite"), look)
+    let count = Connection::open(copy.path().join("ledger.sqlite"))
         .and_then(|ledger| ledger.query_row("SELECT count(*) FROM findings", [], |row| row.get(0)));
     count.unwrap_or(0)
 }

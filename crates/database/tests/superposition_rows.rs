@@ -1,19 +1,24 @@
-//! Every row of the paper's reference table that a database states its error of, at D/B 1 and 2, out of databases
-//! built around its eccentricity, the aligned ones of D/B 1 out of the usual database of aligned journals too:
+//! Every row of the paper's reference table whose gap is open, at D/B 1 and 2, out of databases built around its
+//! eccentricity, the aligned ones of D/B 1 out of the usual database of aligned journals too:
 //! forces and moments of wedge and squeeze, eccentricity rising and falling, within 0.5 %.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use sommerfeld_database::superposition::{Drive, SuperpositionRecipe, SuperpositionTable};
+use std::ops::Range;
+
+/// Gaps over the clearance that a database states its error of by default.
+const USUAL: Range<f64> = 0.02 * (1.0 - 1e-6)..f64::INFINITY;
 
 struct Row {
     d_over_b: f64,
     eps: f64,
     tilts: [f64; 2],
+    gap: f64,
     drive: Drive,
     integrals: [f64; 4],
 }
 
-/// Rows whose gap is one that a database of tilted journals states its error of.
+/// Rows whose gap is open.
 fn rows() -> Vec<Row> {
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -25,7 +30,7 @@ fn rows() -> Vec<Row> {
     for line in lines {
         let cells: Vec<&str> = line.split(',').map(str::trim).collect();
         let number = |column: usize| cells[column].parse::<f64>().unwrap();
-        if cells[8] != "ok" || number(6) < 0.02 * (1.0 - 1e-6) {
+        if cells[8] != "ok" {
             continue;
         }
         let eps = number(1);
@@ -33,6 +38,7 @@ fn rows() -> Vec<Row> {
             d_over_b: number(0),
             eps,
             tilts: [number(2) * (1.0 - eps), number(5)],
+            gap: number(6),
             drive: match cells[7] {
                 "D" => Drive::Wedge,
                 "V" => Drive::Rising,
@@ -46,7 +52,7 @@ fn rows() -> Vec<Row> {
 
 /// Databases around an eccentricity.
 fn around(d_over_b: f64, eps: f64, tilt_nodes: [usize; 2]) -> SuperpositionTable {
-    let recipe = SuperpositionRecipe {
+    build(&SuperpositionRecipe {
         eccentricities: [0.9 * eps, eps + 0.1 * (1.0 - eps)],
         eccentricity_nodes: 5,
         tilt_nodes,
@@ -54,17 +60,21 @@ fn around(d_over_b: f64, eps: f64, tilt_nodes: [usize; 2]) -> SuperpositionTable
         grid: [96, 24],
         samples: 0,
         ..SuperpositionRecipe::tilted(d_over_b)
-    };
-    SuperpositionTable::build(&recipe, None, &mut |_, _| true).unwrap()
+    })
+}
+
+fn build(recipe: &SuperpositionRecipe) -> SuperpositionTable {
+    SuperpositionTable::build(recipe, None, &mut |_, _| true).unwrap()
 }
 
 /// Holds the rows of an eccentricity, `expected` of each drive, against a database; the largest force or moment of a
 /// squeeze that the paper leaves out, over the whole.
-fn hold(table: &SuperpositionTable, eps: f64, expected: usize) -> f64 {
+fn hold(table: &SuperpositionTable, eps: f64, gaps: &Range<f64>, expected: usize) -> f64 {
     let (mut counts, mut failures) = ([0; 3], Vec::new());
     let mut across = 0.0_f64;
     let d_over_b = table.recipe().d_over_b;
-    let of_table = |row: &Row| row.d_over_b == d_over_b && row.eps == eps;
+    let of_table =
+        |row: &Row| row.d_over_b == d_over_b && row.eps == eps && gaps.contains(&row.gap);
     for row in rows().into_iter().filter(of_table) {
         let factor = if row.drive == Drive::Wedge { eps } else { 1.0 };
         let found = (table.lookup(row.drive, eps, row.tilts).integrals).map(|value| factor * value);
@@ -93,7 +103,7 @@ fn hold(table: &SuperpositionTable, eps: f64, expected: usize) -> f64 {
 
 /// The same of tilted rows: squeezes have the force and moment that the paper leaves out.
 fn hold_tilted(eps: f64, tilt_nodes: [usize; 2], expected: usize) {
-    let across = hold(&around(2.0, eps, tilt_nodes), eps, expected);
+    let across = hold(&around(2.0, eps, tilt_nodes), eps, &USUAL, expected);
     assert!(across > 0.1, "no row has Phi_2V or Theta_2V: {across}");
 }
 
@@ -117,24 +127,47 @@ fn rows_at_0_9() {
     hold_tilted(0.9, [11, 9], 5);
 }
 
+/// Rows with gaps of 0.02 to 0.004 of the clearance, out of databases that reach there.
+#[test]
+fn rows_close_to_contact() {
+    for (eps, expected) in [(0.8, 1), (0.9, 2)] {
+        let table = build(&SuperpositionRecipe {
+            eccentricities: [eps - 0.1 * (1.0 - eps), eps + 0.1 * (1.0 - eps)],
+            eccentricity_nodes: 5,
+            tilt_nodes: [11, 11],
+            largest_shares: [0.97, 0.94],
+            centre_nodes: [0, 0],
+            grid: [96, 24],
+            smallest_gap: 0.004,
+            samples: 0,
+            ..SuperpositionRecipe::tilted(2.0)
+        });
+        hold(&table, eps, &(0.004..USUAL.start), expected);
+    }
+}
+
 #[test]
 fn rows_of_d_over_b_1() {
     for eps in [0.3, 0.8] {
-        hold(&around(1.0, eps, [5, 5]), eps, 1);
+        hold(&around(1.0, eps, [5, 5]), eps, &USUAL, 1);
     }
     let recipe = SuperpositionRecipe {
         samples: 0,
         ..SuperpositionRecipe::aligned(1.0)
     };
-    let aligned = SuperpositionTable::build(&recipe, None, &mut |_, _| true).unwrap();
+    let aligned = build(&recipe);
     for eps in [0.3, 0.8] {
-        hold(&aligned, eps, 1);
+        hold(&aligned, eps, &USUAL, 1);
     }
 }
 
-/// No row is forgotten: two eccentricities of D/B 1 aligned, four of D/B 2 with tilts, less those closed or too close.
+/// No row is forgotten: two eccentricities of D/B 1 aligned, four of D/B 2 with tilts, less those closed.
 #[test]
 fn all_rows_are_held() {
     let of = |d_over_b: f64| rows().iter().filter(|row| row.d_over_b == d_over_b).count();
-    assert_eq!([of(1.0), of(2.0), rows().len()], [6, 90, 96]);
+    let close = rows()
+        .iter()
+        .filter(|row| !USUAL.contains(&row.gap))
+        .count();
+    assert_eq!([of(1.0), of(2.0), close], [6, 99, 9]);
 }
