@@ -1,6 +1,7 @@
 //! Every row of the paper's reference table whose gap is open, at D/B 1 and 2, out of databases built around its
 //! eccentricity, the aligned ones of D/B 1 out of the usual database of aligned journals too:
-//! forces and moments of wedge and squeeze, eccentricity rising and falling, within 0.5 %.
+//! forces and moments of wedge and squeeze, eccentricity rising and falling, within 0.5 %, so the largest pressure of
+//! the paper's figure 4; other peaks, which the cells of these databases cut off, within 4 %.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use sommerfeld_database::superposition::{Drive, SuperpositionRecipe, SuperpositionTable};
@@ -16,6 +17,7 @@ struct Row {
     gap: f64,
     drive: Drive,
     integrals: [f64; 4],
+    peak: f64,
 }
 
 /// Rows whose gap is open.
@@ -45,6 +47,7 @@ fn rows() -> Vec<Row> {
                 _ => Drive::Falling,
             },
             integrals: [9, 10, 11, 12].map(number),
+            peak: number(13),
         });
     }
     rows
@@ -77,7 +80,9 @@ fn hold(table: &SuperpositionTable, eps: f64, gaps: &Range<f64>, expected: usize
         |row: &Row| row.d_over_b == d_over_b && row.eps == eps && gaps.contains(&row.gap);
     for row in rows().into_iter().filter(of_table) {
         let factor = if row.drive == Drive::Wedge { eps } else { 1.0 };
-        let found = (table.lookup(row.drive, eps, row.tilts).integrals).map(|value| factor * value);
+        let seen = table.lookup(row.drive, eps, row.tilts);
+        let found = seen.integrals.map(|value| factor * value);
+        let peak = factor * seen.peak / row.peak - 1.0;
         let [f1, f2, m1, m2] = row.integrals;
         let force = f1.hypot(f2);
         let moment = m1.hypot(m2).max(0.1 * force);
@@ -89,11 +94,16 @@ fn hold(table: &SuperpositionTable, eps: f64, gaps: &Range<f64>, expected: usize
         if row.drive != Drive::Wedge {
             across = across.max(f2.abs() / force).max(m2.abs() / moment);
         }
-        println!("{eps} {:?} {:?}: {off:.5?}", row.tilts, row.drive);
+        println!("{eps} {:?} {:?}: {off:.5?} {peak:.5}", row.tilts, row.drive);
         // A number that is none is no error either.
-        let is_kept = off.iter().all(|off| *off <= 0.005);
+        let is_figure_4 = (eps, row.tilts[1], row.drive) == (0.8, 0.0, Drive::Wedge);
+        let peak_bar = if is_figure_4 { 0.005 } else { 0.04 };
+        let is_kept = off.iter().all(|off| *off <= 0.005) && peak.abs() <= peak_bar;
         if !is_kept {
-            failures.push(format!("{eps} {:?} {:?}: {off:?}", row.tilts, row.drive));
+            failures.push(format!(
+                "{eps} {:?} {:?}: {off:?} {peak}",
+                row.tilts, row.drive
+            ));
         }
     }
     assert_eq!(counts, [expected; 3]);
